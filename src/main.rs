@@ -1,0 +1,3 @@
+//! The command line `vtu2contour`.
+
+fn main() {}

@@ -15,5 +15,7 @@
 //! | [`pde`] | differential equations given as text |
 
 pub mod bernstein;
+pub mod field;
+pub mod mesh;
 pub mod pde;
 pub mod vtk;

@@ -44,16 +44,29 @@ impl TriangleCubic {
         Self { coefficients }
     }
 
-    /// The cubic that equals the linear function with the given vertex values.
-    pub fn linear(values: [f64; 3]) -> Self {
-        Self::from_blossom(|a, b, c| (values[a] + values[b] + values[c]) / 3.0)
+    /// The cubic with vertex coefficients `b_iii = vertex[i]`, edge coefficients
+    /// `b_iij = toward(i, j)` (the one near vertex `i` on its edge to vertex `j`),
+    /// and `b_111 = centre`.
+    pub fn assemble(vertex: [f64; 3], toward: impl Fn(usize, usize) -> f64, centre: f64) -> Self {
+        let [first, second, third] = vertex;
+        Self::new([
+            first,
+            toward(0, 1),
+            toward(0, 2),
+            toward(1, 0),
+            centre,
+            toward(2, 0),
+            second,
+            toward(1, 2),
+            toward(2, 1),
+            third,
+        ])
     }
 
-    /// The cubic that equals a quadratic, given by its vertex coefficients
-    /// `q_200, q_020, q_002` and, opposite each vertex, its edge coefficient.
-    pub fn quadratic(vertex: [f64; 3], edge: [f64; 3]) -> Self {
-        let blossom = |a: usize, b: usize| if a == b { vertex[a] } else { edge[3 - a - b] };
-        Self::from_blossom(|a, b, c| (blossom(a, b) + blossom(b, c) + blossom(c, a)) / 3.0)
+    /// The cubic that equals the linear function with the given vertex values.
+    pub fn linear(values: [f64; 3]) -> Self {
+        let toward = |i: usize, j: usize| (2.0 * values[i] + values[j]) / 3.0;
+        Self::assemble(values, toward, (values[0] + values[1] + values[2]) / 3.0)
     }
 
     /// The coefficients as values of a symmetric function of three vertices.
@@ -209,12 +222,9 @@ mod tests {
     }
 
     #[test]
-    fn elevation_keeps_linear_and_quadratic_functions() {
+    fn elevation_keeps_a_linear_function() {
         let linear = TriangleCubic::linear([1.0, 2.0, 4.0]);
         assert!((linear.value(&[0.5, 0.25, 0.25]) - 2.0).abs() < 1e-15);
-        // q = λ₀² + 2 λ₁ λ₂, so q_200 = 1 and the coefficient opposite vertex 0 is 1
-        let quadratic = TriangleCubic::quadratic([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
-        assert!((quadratic.value(&[0.5, 0.25, 0.25]) - 0.375).abs() < 1e-15);
     }
 
     proptest! {

@@ -1,0 +1,285 @@
+//! Gradients recovered from values: polynomial-preserving recovery.
+//!
+//! Around each point a polynomial is fitted by least squares to the values at
+//! the point's neighbours, passing through the value at the point itself; its
+//! slope there is the recovered gradient. If the values are those of a
+//! polynomial of the fitted degree, on any mesh, the gradient is exact: also on
+//! the boundary, where the patch simply grows inwards.
+//!
+//! On a surface in space the fit is over the tangent plane at the point.
+//!
+//! Source: Z. Zhang, A. Naga, *A new finite element gradient recovery method:
+//! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213.
+
+use nalgebra::{Cholesky, SMatrix, SVector};
+use rayon::prelude::*;
+
+use crate::mesh::{PointNeighbours, TriangleMesh, Vector};
+
+/// The degree of the polynomials that are fitted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RecoveryDegree {
+    /// Quadratics: gradients of second order.
+    Two,
+    /// Cubics: gradients of third order, on larger patches. That is the order
+    /// which a cubic interpolant needs.
+    #[default]
+    Three,
+}
+
+/// Rings of neighbours beyond which a patch does not grow.
+const MAX_RINGS: usize = 4;
+
+/// Gradients at the points of `mesh`, recovered from one value a point.
+///
+/// Where even the largest patch does not determine the polynomial, its degree is
+/// lowered; a point with no usable neighbour gets the gradient zero, a point
+/// whose own value is not finite gets NaN.
+pub fn recover_gradients(
+    mesh: &TriangleMesh,
+    values: &[f64],
+    degree: RecoveryDegree,
+) -> Vec<Vector> {
+    let neighbours = PointNeighbours::new(mesh);
+    let normals = point_normals(mesh);
+    (0..mesh.points().len() as u32)
+        .into_par_iter()
+        .map_init(Patch::default, |patch, point| {
+            if !values[point as usize].is_finite() {
+                return Vector::repeat(f64::NAN);
+            }
+            patch.start(point);
+            let tangents = tangent_axes(&normals[point as usize]);
+            patch.gradient(mesh, &neighbours, values, &tangents, degree)
+        })
+        .collect()
+}
+
+/// Sums of the normals of the triangles around each point, weighted by area.
+/// Triangles are first turned to one side, so that mixed orientations do not
+/// cancel.
+fn point_normals(mesh: &TriangleMesh) -> Vec<Vector> {
+    let mut normals = vec![Vector::zeros(); mesh.points().len()];
+    for (triangle, corners) in mesh.triangles().iter().enumerate() {
+        let [a, b, c] = mesh.corners(triangle);
+        let normal = (b - a).cross(&(c - a));
+        for &point in corners {
+            let sum = &mut normals[point as usize];
+            *sum += if sum.dot(&normal) < 0.0 { -normal } else { normal };
+        }
+    }
+    normals
+}
+
+/// Two unit vectors perpendicular to `normal` and to each other; the x and y
+/// axes for a normal along z, or for none.
+fn tangent_axes(normal: &Vector) -> [Vector; 2] {
+    let normal = normal.try_normalize(0.0).unwrap_or_else(Vector::z);
+    let axis = if normal.x.abs() <= 0.9 { Vector::x() } else { Vector::y() };
+    let first = (axis - normal * axis.dot(&normal)).normalize();
+    [first, normal.cross(&first)]
+}
+
+/// The points around one point, ring by ring; kept between points so that its
+/// memory is used again.
+#[derive(Default)]
+struct Patch {
+    /// The point itself first, then its neighbours in order of distance in edges.
+    points: Vec<u32>,
+    /// Where the outermost ring begins.
+    ring: usize,
+}
+
+impl Patch {
+    fn start(&mut self, point: u32) {
+        self.points.clear();
+        self.points.push(point);
+        self.ring = 0;
+    }
+
+    /// Adds the next ring; false if there is none.
+    fn grow(&mut self, neighbours: &PointNeighbours) -> bool {
+        let end = self.points.len();
+        for place in self.ring..end {
+            for &point in neighbours.of(self.points[place]) {
+                // patches are small: a search is faster than a set
+                if !self.points.contains(&point) {
+                    self.points.push(point);
+                }
+            }
+        }
+        self.ring = end;
+        self.points.len() > end
+    }
+
+    fn gradient(
+        &mut self,
+        mesh: &TriangleMesh,
+        neighbours: &PointNeighbours,
+        values: &[f64],
+        tangents: &[Vector; 2],
+        degree: RecoveryDegree,
+    ) -> Vector {
+        let terms = if degree == RecoveryDegree::Three { 9 } else { 5 };
+        for _ in 0..MAX_RINGS {
+            let grown = self.grow(neighbours);
+            // a fit with no value to spare only repeats the noise in the values
+            if self.points.len() > terms + 1 || !grown {
+                let slope = match degree {
+                    RecoveryDegree::Three => self.slope::<9>(mesh, values, tangents),
+                    RecoveryDegree::Two => self.slope::<5>(mesh, values, tangents),
+                };
+                if let Some([along, across]) = slope {
+                    return tangents[0] * along + tangents[1] * across;
+                }
+            }
+            if !grown {
+                break;
+            }
+        }
+        let lower = self.slope::<5>(mesh, values, tangents);
+        let slope = lower.or_else(|| self.slope::<2>(mesh, values, tangents));
+        let [along, across] = slope.unwrap_or_default();
+        tangents[0] * along + tangents[1] * across
+    }
+
+    /// The slope of the least-squares polynomial with `TERMS` terms beside the
+    /// constant, or nothing if the patch does not determine it.
+    fn slope<const TERMS: usize>(
+        &self,
+        mesh: &TriangleMesh,
+        values: &[f64],
+        tangents: &[Vector; 2],
+    ) -> Option<[f64; 2]> {
+        let (&centre, others) = self.points.split_first()?;
+        let origin = mesh.points()[centre as usize];
+        let offset = |point: u32| mesh.points()[point as usize] - origin;
+        let size = others.iter().map(|&point| offset(point).norm()).fold(0.0, f64::max);
+        let mut matrix = SMatrix::<f64, TERMS, TERMS>::zeros();
+        let mut right = SVector::<f64, TERMS>::zeros();
+        for &point in others.iter().filter(|&&point| values[point as usize].is_finite()) {
+            let offset = offset(point) / size;
+            let row = monomials::<TERMS>(tangents[0].dot(&offset), tangents[1].dot(&offset));
+            matrix.ger(1.0, &row, &row, 1.0);
+            right += row * (values[point as usize] - values[centre as usize]);
+        }
+        let factor = well_determined(Cholesky::new(matrix)?)?;
+        let solution = factor.solve(&right) / size;
+        Some([solution[0], solution[1]])
+    }
+}
+
+/// `s, t, s², s t, t², s³, …`: the first `TERMS` monomials after the constant.
+fn monomials<const TERMS: usize>(s: f64, t: f64) -> SVector<f64, TERMS> {
+    let all = [s, t, s * s, s * t, t * t, s * s * s, s * s * t, s * t * t, t * t * t];
+    SVector::from_fn(|term, _| all[term])
+}
+
+/// A pivot below this fraction of the largest means that the points of the patch
+/// (nearly) lie on a curve of the fitted degree.
+const SMALLEST_PIVOT: f64 = 1e-4;
+
+fn well_determined<const N: usize>(
+    factor: Cholesky<f64, nalgebra::Const<N>>,
+) -> Option<Cholesky<f64, nalgebra::Const<N>>> {
+    let pivots = factor.l_dirty().diagonal();
+    (pivots.min() > SMALLEST_PIVOT * pivots.max()).then_some(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// An n by n grid of the unit square, its points moved by up to a third of
+    /// the spacing, each square cut into two triangles.
+    fn shaken_grid(n: usize, moves: &[f64], lift: impl Fn(f64, f64) -> f64) -> TriangleMesh {
+        let spacing = 1.0 / (n - 1) as f64;
+        let point = |i: usize, j: usize| {
+            let k = 2 * (i * n + j);
+            let x = (i as f64 + moves[k % moves.len()] / 3.0) * spacing;
+            let y = (j as f64 + moves[(k + 1) % moves.len()] / 3.0) * spacing;
+            Vector::new(x, y, lift(x, y))
+        };
+        let points = (0..n * n).map(|k| point(k / n, k % n)).collect();
+        let mut triangles = Vec::new();
+        for i in 0..n - 1 {
+            for j in 0..n - 1 {
+                let a = (i * n + j) as u32;
+                let b = a + n as u32;
+                triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+            }
+        }
+        TriangleMesh::new(points, triangles).unwrap()
+    }
+
+    fn check_exact(
+        mesh: &TriangleMesh,
+        degree: RecoveryDegree,
+        u: impl Fn(&Vector) -> f64,
+        gradient: impl Fn(&Vector) -> Vector,
+    ) {
+        let values: Vec<f64> = mesh.points().iter().map(&u).collect();
+        let found = recover_gradients(mesh, &values, degree);
+        for (point, found) in mesh.points().iter().zip(&found) {
+            let exact = gradient(point);
+            assert!((found - exact).norm() < 1e-8, "at {point}: {found} is not {exact}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(50))]
+
+        #[test]
+        fn quadratics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), c in prop::array::uniform5(-1.0..1.0f64)) {
+            let mesh = shaken_grid(5, &moves, |_, _| 0.0);
+            check_exact(
+                &mesh,
+                RecoveryDegree::Two,
+                |p| c[0] * p.x + c[1] * p.y + c[2] * p.x * p.x + c[3] * p.x * p.y + c[4] * p.y * p.y,
+                |p| Vector::new(c[0] + 2.0 * c[2] * p.x + c[3] * p.y, c[1] + c[3] * p.x + 2.0 * c[4] * p.y, 0.0),
+            );
+        }
+
+        #[test]
+        fn cubics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), a in -1.0..1.0f64, b in -1.0..1.0f64) {
+            let mesh = shaken_grid(6, &moves, |_, _| 0.0);
+            check_exact(
+                &mesh,
+                RecoveryDegree::Three,
+                |p| a * p.x * p.x * p.x + b * p.x * p.y * p.y + p.y,
+                |p| Vector::new(3.0 * a * p.x * p.x + b * p.y * p.y, 2.0 * b * p.x * p.y + 1.0, 0.0),
+            );
+        }
+
+        /// On a tilted plane the gradient lies in the plane.
+        #[test]
+        fn tilted_planes(moves in prop::collection::vec(-1.0..1.0f64, 53), tilt in -2.0..2.0f64) {
+            let mesh = shaken_grid(5, &moves, |x, _| tilt * x);
+            let along = Vector::new(1.0, 0.0, tilt);
+            check_exact(&mesh, RecoveryDegree::Two, |p| p.x, |_| along / along.norm_squared());
+        }
+    }
+
+    #[test]
+    fn one_triangle_gives_its_linear_slope() {
+        let points = vec![Vector::zeros(), Vector::x(), Vector::y()];
+        let mesh = TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap();
+        check_exact(
+            &mesh,
+            RecoveryDegree::Three,
+            |p| 3.0 * p.x - p.y,
+            |_| Vector::new(3.0, -1.0, 0.0),
+        );
+    }
+
+    #[test]
+    fn missing_values_stay_missing_and_do_not_spread() {
+        let mesh = shaken_grid(6, &[0.0], |_, _| 0.0);
+        let mut values: Vec<f64> = mesh.points().iter().map(|p| p.x).collect();
+        values[14] = f64::NAN;
+        let found = recover_gradients(&mesh, &values, RecoveryDegree::Two);
+        assert!(found[14].x.is_nan());
+        assert!((found[13] - Vector::x()).norm() < 1e-10);
+    }
+}

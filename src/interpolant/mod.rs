@@ -1,0 +1,31 @@
+//! Interpolants: values, gradients and the PDE become one cubic a triangle.
+//!
+//! Whatever interpolant is chosen, what the floors above read are Bernstein
+//! coefficients, by the trait [`TriangleCubics`].
+
+mod linear;
+mod pci;
+
+pub use linear::Linear;
+pub use pci::{Pci, Predictor};
+
+use crate::bernstein::TriangleCubic;
+use crate::mesh::TriangleMesh;
+
+/// One cubic a triangle, continuous from each triangle to the next.
+///
+/// The contract that contours rely on: the four coefficients of an edge are the
+/// same numbers, to the last bit, in both triangles that share it.
+pub trait TriangleCubics: Sync {
+    /// The triangles.
+    fn mesh(&self) -> &TriangleMesh;
+
+    /// The cubic on a triangle.
+    fn cubic(&self, triangle: usize) -> TriangleCubic;
+
+    /// Whether the cubic on a triangle can be used: not where data are missing
+    /// (NaN) or infinite.
+    fn is_usable(&self, triangle: usize) -> bool {
+        self.cubic(triangle).coefficients.iter().all(|c| c.is_finite())
+    }
+}

@@ -18,6 +18,7 @@
 
 pub mod a_patch;
 mod barycentric;
+mod factors;
 mod roots;
 mod segment;
 mod sign;

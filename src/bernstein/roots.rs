@@ -6,6 +6,8 @@
 //! Sign changes alone would miss double zeros and zeros at the ends: here a value
 //! that is zero to rounding at an interval's end *is* a zero.
 
+use arrayvec::ArrayVec;
+
 use super::segment::SegmentCubic;
 use super::sign::Sign;
 
@@ -31,10 +33,9 @@ pub struct Root {
 }
 
 /// All zeros of a cubic on `[0, 1]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Roots {
-    roots: [Root; MAX_ROOTS],
-    count: usize,
+    roots: ArrayVec<Root, MAX_ROOTS>,
     everywhere: bool,
     after_start: Sign,
 }
@@ -107,18 +108,16 @@ impl SegmentCubic {
 /// The ends of the segment and the critical points between them, with the signs
 /// of the values there (zero where the value is zero to rounding).
 struct Stations {
-    t: [f64; 4],
-    sign: [i8; 4],
-    count: usize,
+    t: ArrayVec<f64, 4>,
+    sign: ArrayVec<i8, 4>,
 }
 
 impl Stations {
     fn of(cubic: &SegmentCubic, zero: f64) -> Self {
-        let mut stations = Stations { t: [0.0; 4], sign: [0; 4], count: 0 };
+        let mut stations = Stations { t: ArrayVec::new(), sign: ArrayVec::new() };
         let [first, .., last] = cubic.coefficients;
-        let (critical, count) = cubic.critical_points();
         stations.push(0.0, first, 0.0);
-        for &t in &critical[..count] {
+        for t in cubic.critical_points() {
             stations.push(t, cubic.value(t), zero);
         }
         stations.push(1.0, last, 0.0);
@@ -126,27 +125,25 @@ impl Stations {
     }
 
     fn push(&mut self, t: f64, value: f64, zero: f64) {
-        let sign = if value.abs() <= zero { 0 } else { value.signum() as i8 };
-        self.t[self.count] = t;
-        self.sign[self.count] = sign;
-        self.count += 1;
+        self.t.push(t);
+        self.sign.push(if value.abs() <= zero { 0 } else { value.signum() as i8 });
     }
 
     /// The side on which the cubic lies just after the start.
     fn first_sign(&self) -> Sign {
-        let first = self.sign[..self.count].iter().find(|&&sign| sign != 0);
+        let first = self.sign.iter().find(|&&sign| sign != 0);
         Sign::of(f64::from(*first.unwrap_or(&0)))
     }
 
     fn collect_roots(&self, cubic: &SegmentCubic, roots: &mut Roots) {
         let mut i = 0;
-        while i < self.count {
+        while i < self.sign.len() {
             let end = self.end_of_zeros(i);
             if end > i {
                 roots.push(self.zero_root(cubic, i, end));
                 i = end;
             } else {
-                if i + 1 < self.count && self.sign[i] * self.sign[i + 1] < 0 {
+                if i + 1 < self.sign.len() && self.sign[i] * self.sign[i + 1] < 0 {
                     let t = cubic.root_between(self.t[i], self.t[i + 1]);
                     roots.push(Root { t, kind: RootKind::Crossing });
                 }
@@ -157,13 +154,13 @@ impl Stations {
 
     /// One past the last of the consecutive zero stations that begin at `i`.
     fn end_of_zeros(&self, i: usize) -> usize {
-        (i..self.count).find(|&j| self.sign[j] != 0).unwrap_or(self.count)
+        (i..self.sign.len()).find(|&j| self.sign[j] != 0).unwrap_or(self.sign.len())
     }
 
     /// The zero at the stations `begin..end`, which rounding cannot tell apart.
     fn zero_root(&self, cubic: &SegmentCubic, begin: usize, end: usize) -> Root {
         let at_start = begin == 0;
-        let at_end = end == self.count;
+        let at_end = end == self.sign.len();
         if at_start || at_end {
             return Root { t: if at_start { 0.0 } else { 1.0 }, kind: end_kind(cubic, at_start) };
         }
@@ -184,22 +181,19 @@ fn end_kind(cubic: &SegmentCubic, at_start: bool) -> RootKind {
 
 impl Roots {
     fn none(after_start: Sign) -> Self {
-        let root = Root { t: 0.0, kind: RootKind::Crossing };
-        Roots { roots: [root; MAX_ROOTS], count: 0, everywhere: false, after_start }
+        Roots { roots: ArrayVec::new(), everywhere: false, after_start }
     }
 
     fn push(&mut self, root: Root) {
-        if self.count < MAX_ROOTS {
-            self.roots[self.count] = root;
-            self.count += 1;
-        }
+        // three intervals hold at most three roots, and zero stations merge
+        debug_assert!(!self.roots.is_full());
+        let _ = self.roots.try_push(root);
     }
 
     fn mirrored(mut self) -> Self {
-        let count = self.count;
         self.after_start = self.before_end();
-        self.roots[..count].reverse();
-        for root in &mut self.roots[..count] {
+        self.roots.reverse();
+        for root in &mut self.roots {
             root.t = 1.0 - root.t;
         }
         self
@@ -224,7 +218,7 @@ impl Roots {
 
     /// The zeros, ascending.
     pub fn as_slice(&self) -> &[Root] {
-        &self.roots[..self.count]
+        &self.roots
     }
 
     /// The zeros at which the sign changes, ascending.

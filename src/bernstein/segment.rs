@@ -1,5 +1,7 @@
 //! Cubic polynomials on a segment.
 
+use arrayvec::ArrayVec;
+
 /// A cubic polynomial on the unit segment, by its four Bernstein coefficients.
 ///
 /// `p(t) = Σ cᵢ C(3,i) (1−t)³⁻ⁱ tⁱ` for `t` in `[0, 1]`.
@@ -79,42 +81,34 @@ impl SegmentCubic {
     /// Places in the open segment where the derivative is zero, ascending.
     ///
     /// At most two. Where the polynomial is constant there are none.
-    pub fn critical_points(&self) -> ([f64; 2], usize) {
+    pub fn critical_points(&self) -> ArrayVec<f64, 2> {
         let [a, b, c] = self.differences();
         quadratic_roots_inside(a, b, c)
     }
 }
 
 /// Roots in `(0, 1)` of the quadratic with Bernstein coefficients `a, b, c`,
-/// ascending, and how many there are.
+/// ascending and without repeats.
 ///
 /// With `t = r / (1 + r)` the quadratic becomes `a + 2 b r + c r²`, and the roots
 /// inside are those with `r > 0`. The two are taken as `q / c` and `a / q`, which
 /// avoids the cancellation of the textbook formula.
-fn quadratic_roots_inside(a: f64, b: f64, c: f64) -> ([f64; 2], usize) {
+fn quadratic_roots_inside(a: f64, b: f64, c: f64) -> ArrayVec<f64, 2> {
     let discriminant = b * b - a * c;
-    let mut roots = [0.0; 2];
-    let mut count = 0;
+    let mut roots = ArrayVec::new();
     if discriminant < 0.0 {
-        return (roots, count);
+        return roots;
     }
     let q = -(b + discriminant.sqrt().copysign(b));
     for (numerator, denominator) in [(q, c), (a, q)] {
-        let positive =
-            (numerator > 0.0 && denominator > 0.0) || (numerator < 0.0 && denominator < 0.0);
+        let same_sign = numerator * denominator.signum() > 0.0 && denominator != 0.0;
         let t = numerator / (numerator + denominator);
-        if positive && t > 0.0 && t < 1.0 {
-            roots[count] = t;
-            count += 1;
+        if same_sign && t > 0.0 && t < 1.0 && !roots.contains(&t) {
+            roots.push(t);
         }
     }
-    if count == 2 && roots[0] > roots[1] {
-        roots.swap(0, 1);
-    }
-    if count == 2 && roots[0] == roots[1] {
-        count = 1;
-    }
-    (roots, count)
+    roots.sort_unstable_by(f64::total_cmp);
+    roots
 }
 
 #[cfg(test)]
@@ -134,13 +128,13 @@ mod tests {
         #[test]
         fn the_slope_is_zero_at_critical_points(c in prop::array::uniform4(-1.0..1.0f64)) {
             let cubic = SegmentCubic::new(c);
-            let (critical, count) = cubic.critical_points();
-            for &t in &critical[..count] {
+            let critical = cubic.critical_points();
+            for &t in &critical {
                 prop_assert!(cubic.derivative(t).abs() < 1e-13);
             }
             // between them the slope keeps its sign
             let mut stations = vec![0.0];
-            stations.extend_from_slice(&critical[..count]);
+            stations.extend_from_slice(&critical);
             stations.push(1.0);
             for pair in stations.windows(2) {
                 let middle = cubic.derivative(0.5 * (pair[0] + pair[1]));

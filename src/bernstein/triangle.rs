@@ -69,17 +69,12 @@ impl TriangleCubic {
         Self::assemble(values, toward, (values[0] + values[1] + values[2]) / 3.0)
     }
 
-    /// The coefficients as values of a symmetric function of three vertices.
-    fn from_blossom(blossom: impl Fn(usize, usize, usize) -> f64) -> Self {
+    /// The cubic with `b_ijk` given by a function of `[i, j, k]`.
+    pub fn from_coefficients(coefficient: impl Fn([usize; 3]) -> f64) -> Self {
         let mut coefficients = [0.0; 10];
         for j in 0..=3 {
             for k in 0..=3 - j {
-                let vertex = |n: usize| match n {
-                    n if n < 3 - j - k => 0,
-                    n if n < 3 - k => 1,
-                    _ => 2,
-                };
-                coefficients[position(j, k)] = blossom(vertex(0), vertex(1), vertex(2));
+                coefficients[position(j, k)] = coefficient([3 - j - k, j, k]);
             }
         }
         Self { coefficients }
@@ -138,8 +133,25 @@ impl TriangleCubic {
 
     /// The same polynomial on the triangle with corners `a`, `b`, `c`.
     pub fn sub_triangle(&self, [a, b, c]: &[Barycentric; 3]) -> Self {
-        let corners = [a, b, c];
-        Self::from_blossom(|i, j, k| self.blossom(corners[i], corners[j], corners[k]))
+        let (at_a, at_b, at_c) = (
+            contract3(&self.coefficients, a),
+            contract3(&self.coefficients, b),
+            contract3(&self.coefficients, c),
+        );
+        let (aa, ab, ac) = (contract2(&at_a, a), contract2(&at_a, b), contract2(&at_a, c));
+        let (bb, bc, cc) = (contract2(&at_b, b), contract2(&at_b, c), contract2(&at_c, c));
+        Self::new([
+            contract1(&aa, a),
+            contract1(&aa, b),
+            contract1(&aa, c),
+            contract1(&ab, b),
+            contract1(&ab, c),
+            contract1(&ac, c),
+            contract1(&bb, b),
+            contract1(&bb, c),
+            contract1(&bc, c),
+            contract1(&cc, c),
+        ])
     }
 
     /// The polynomial minus a constant.

@@ -1,0 +1,181 @@
+//! A triangle piece of a cell, with the contour's crossings on its border.
+
+use arrayvec::ArrayVec;
+
+use super::crossing::{Crossing, MAX_CROSSINGS, Owner, crossings};
+use crate::bernstein::{Barycentric, Sign, TriangleCubic};
+
+/// A crossing on the edge of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeCrossing {
+    /// Where on the edge, in `[0, 1]`.
+    pub t: f64,
+    /// Its number among the crossings of the cell.
+    pub crossing: u32,
+}
+
+/// The crossings on an edge, in its direction.
+pub type EdgeCrossings = ArrayVec<EdgeCrossing, MAX_CROSSINGS>;
+
+/// A triangle piece of a cell.
+///
+/// Edge `e` is opposite corner `e` and runs from corner `e + 1` to corner
+/// `e + 2`, so the three edges go around the piece counter-clockwise.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// The corners, in barycentric coordinates of the cell.
+    pub corners: [Barycentric; 3],
+    /// On which side of the level each corner lies.
+    pub signs: [Sign; 3],
+    /// The cubic less the level, on this piece.
+    pub cubic: TriangleCubic,
+    /// The crossings on each edge, in its direction.
+    pub edges: [EdgeCrossings; 3],
+    /// How many divisions made this piece.
+    pub depth: u32,
+}
+
+impl Piece {
+    /// How many crossings there are on the whole border.
+    pub fn crossing_count(&self) -> usize {
+        self.edges.iter().map(ArrayVec::len).sum()
+    }
+
+    /// The crossings around the border, counter-clockwise from corner 1: number
+    /// of the edge, parameter on it, number of the crossing.
+    pub fn border(&self) -> impl Iterator<Item = (usize, EdgeCrossing)> + '_ {
+        (0..3).flat_map(|edge| self.edges[edge].iter().map(move |crossing| (edge, *crossing)))
+    }
+
+    /// The side on which the border lies before the first crossing of
+    /// [`Piece::border`].
+    pub fn first_side(&self) -> Sign {
+        self.signs[1]
+    }
+
+    /// The point of the cell at barycentric coordinates of the piece.
+    pub fn in_cell(&self, at: &Barycentric) -> Barycentric {
+        let [a, b, c] = &self.corners;
+        [0, 1, 2].map(|n| at[0] * a[n] + at[1] * b[n] + at[2] * c[n])
+    }
+
+    /// The point of the cell at `t` on an edge.
+    pub fn on_edge(&self, edge: usize, t: f64) -> Barycentric {
+        let (start, end) = (&self.corners[(edge + 1) % 3], &self.corners[(edge + 2) % 3]);
+        [0, 1, 2].map(|n| (1.0 - t) * start[n] + t * end[n])
+    }
+
+    /// The side on which an edge lies at `t`: its start's, changed by each
+    /// crossing before `t`.
+    fn side_at(&self, edge: usize, t: f64) -> Sign {
+        let before = self.edges[edge].iter().filter(|crossing| crossing.t < t).count();
+        let start = self.signs[(edge + 1) % 3];
+        if before % 2 == 0 { start } else { !start }
+    }
+
+    /// The part of an edge's crossings between two parameters, rescaled.
+    fn part_of_edge(&self, edge: usize, from: f64, to: f64) -> EdgeCrossings {
+        self.edges[edge]
+            .iter()
+            .filter(|crossing| (crossing.t < to || to == 1.0) && (crossing.t >= from))
+            .map(|crossing| EdgeCrossing {
+                t: ((crossing.t - from) / (to - from)).clamp(0.0, 1.0),
+                crossing: crossing.crossing,
+            })
+            .collect()
+    }
+}
+
+/// The cell whose pieces are divided: its cubic, and the crossings found so far.
+#[derive(Debug)]
+pub struct Cell<'a> {
+    /// The cell's number.
+    pub number: u32,
+    /// The cubic less the level, on the whole cell.
+    pub cubic: &'a TriangleCubic,
+    /// All crossings found, on the cell's edges and inside.
+    pub crossings: Vec<Crossing>,
+}
+
+impl Cell<'_> {
+    /// The piece divided in two, by a line from corner `edge` to the point `t` of
+    /// the edge opposite.
+    pub fn split_edge(&mut self, piece: &Piece, edge: usize, t: f64) -> [Piece; 2] {
+        let (apex, start, end) = (edge, (edge + 1) % 3, (edge + 2) % 3);
+        let middle = Corner { at: piece.on_edge(edge, t), sign: piece.side_at(edge, t) };
+        let [apex, start, end] =
+            [apex, start, end].map(|n| Corner { at: piece.corners[n], sign: piece.signs[n] });
+        let cut = self.line(&apex, &middle);
+        let first_half = piece.part_of_edge(edge, 0.0, t);
+        let second_half = piece.part_of_edge(edge, t, 1.0);
+        let (before, after) =
+            (piece.edges[(edge + 2) % 3].clone(), piece.edges[(edge + 1) % 3].clone());
+        let first = self.piece([apex, start, middle], [first_half, reversed(&cut), before], piece);
+        let second = self.piece([apex, middle, end], [second_half, after, cut], piece);
+        [first, second]
+    }
+
+    /// The piece divided in four, by lines between the middles of its edges.
+    pub fn quadrisect(&mut self, piece: &Piece) -> [Piece; 4] {
+        let middle = [0, 1, 2].map(|edge| Corner {
+            at: piece.on_edge(edge, 0.5),
+            sign: piece.side_at(edge, 0.5),
+        });
+        let corner = [0, 1, 2].map(|n| Corner { at: piece.corners[n], sign: piece.signs[n] });
+        // inner[n] runs parallel to edge n, in its direction
+        let inner = [0, 1, 2].map(|n| self.line(&middle[(n + 2) % 3], &middle[(n + 1) % 3]));
+        let outer = |n: usize| {
+            let (next, last) = ((n + 1) % 3, (n + 2) % 3);
+            let after = piece.part_of_edge(last, 0.0, 0.5);
+            let before = piece.part_of_edge(next, 0.5, 1.0);
+            ([corner[n], middle[last], middle[next]], [inner[n].clone(), before, after])
+        };
+        let [a, b, c] = [0, 1, 2].map(|n| {
+            let (corners, edges) = outer(n);
+            self.piece(corners, edges, piece)
+        });
+        let centre = [reversed(&inner[0]), reversed(&inner[1]), reversed(&inner[2])];
+        [a, b, c, self.piece(middle, centre, piece)]
+    }
+
+    /// The crossings on a new line inside the cell.
+    fn line(&mut self, from: &Corner, to: &Corner) -> EdgeCrossings {
+        let restricted = self.cubic.restrict(&from.at, &to.at);
+        let found = crossings(&restricted, from.sign, to.sign);
+        found
+            .into_iter()
+            .map(|t| {
+                let at = [0, 1, 2].map(|n| (1.0 - t) * from.at[n] + t * to.at[n]);
+                EdgeCrossing { t, crossing: self.add_inside(at) }
+            })
+            .collect()
+    }
+
+    /// Adds a crossing that the cell owns; returns its number.
+    pub fn add_inside(&mut self, at: Barycentric) -> u32 {
+        let place = self.crossings.len() as u32;
+        self.crossings.push(Crossing { owner: Owner::Cell { cell: self.number, place }, at });
+        place
+    }
+
+    fn piece(&self, corners: [Corner; 3], edges: [EdgeCrossings; 3], parent: &Piece) -> Piece {
+        let positions = corners.map(|corner| corner.at);
+        Piece {
+            corners: positions,
+            signs: corners.map(|corner| corner.sign),
+            cubic: self.cubic.sub_triangle(&positions),
+            edges,
+            depth: parent.depth + 1,
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Corner {
+    at: Barycentric,
+    sign: Sign,
+}
+
+fn reversed(edge: &EdgeCrossings) -> EdgeCrossings {
+    edge.iter().rev().map(|c| EdgeCrossing { t: 1.0 - c.t, crossing: c.crossing }).collect()
+}

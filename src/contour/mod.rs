@@ -1,0 +1,19 @@
+//! Contours of an interpolant: nothing here knows a file or a PDE.
+//!
+//! The three stages of the thesis (section 2.3):
+//!
+//! 1. [`CellRanges`]: bounds of the cubic on each cell, so that cells without a
+//!    contour are passed over;
+//! 2. [`lines`]: crossings on the edges, and subdivision until every piece holds
+//!    one simple arc (certified, so nothing is missed);
+//! 3. the curve through each piece, by one of four methods, and the arcs joined
+//!    into polylines.
+
+mod extreme;
+mod levels;
+pub mod lines;
+mod ranges;
+
+pub use extreme::{Extreme, recursive_extreme};
+pub use levels::{LevelError, Levels};
+pub use ranges::CellRanges;

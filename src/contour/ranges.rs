@@ -1,0 +1,88 @@
+//! Stage one: the range of the interpolant on each cell (thesis, section 2.3.1).
+//!
+//! The thesis searches for the extremes of each cubic, which may miss some; the
+//! least and the greatest Bernstein coefficient bound the cubic with certainty,
+//! and cost less. They may be a little wide: then stage two looks at a cell in
+//! vain. Where a *tight* range is wanted, to place levels, the thesis' recursive
+//! search is used ([`recursive_extreme`]), on the few cells that could matter.
+
+use rayon::prelude::*;
+
+use super::extreme::{Extreme, recursive_extreme};
+use crate::interpolant::TriangleCubics;
+
+/// Certain bounds of the interpolant on each cell, computed once for all levels.
+#[derive(Clone, Debug)]
+pub struct CellRanges {
+    /// Least and greatest coefficient; an empty range for an unusable cell.
+    ranges: Vec<[f64; 2]>,
+    unusable: usize,
+}
+
+/// The range of a cell that holds no value.
+const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+impl CellRanges {
+    /// The ranges of all cells of `interpolant`.
+    pub fn new(interpolant: &dyn TriangleCubics) -> Self {
+        let ranges: Vec<[f64; 2]> = (0..interpolant.mesh().triangles().len())
+            .into_par_iter()
+            .map(|cell| {
+                let cubic = interpolant.cubic(cell);
+                let usable = cubic.coefficients.iter().all(|c| c.is_finite());
+                if usable { cubic.bounds().into() } else { EMPTY }
+            })
+            .collect();
+        let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
+        Self { ranges, unusable }
+    }
+
+    /// How many cells have a value or a gradient that is not finite. They hold
+    /// no contour.
+    pub fn unusable(&self) -> usize {
+        self.unusable
+    }
+
+    /// The cells whose range holds `level`, give or take `tolerance`, ascending.
+    pub fn cells_at(&self, level: f64, tolerance: f64) -> Vec<u32> {
+        self.ranges
+            .par_iter()
+            .enumerate()
+            .filter(|(_, [low, high])| low - tolerance <= level && level <= high + tolerance)
+            .map(|(cell, _)| cell as u32)
+            .collect()
+    }
+
+    /// The largest magnitude in any range; zero without usable cells.
+    pub fn magnitude(&self) -> f64 {
+        let magnitude = |range: &[f64; 2]| range[0].abs().max(range[1].abs());
+        self.ranges.par_iter().filter(|&&range| range != EMPTY).map(magnitude).reduce(|| 0.0, f64::max)
+    }
+
+    /// Least and greatest value that the interpolant attains, by the recursive
+    /// search; nothing without usable cells.
+    ///
+    /// Levels strictly between them have a contour, which is not so for levels
+    /// between the extreme coefficients.
+    pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
+        let low = self.attained_extreme(interpolant, Extreme::Minimum)?;
+        let high = self.attained_extreme(interpolant, Extreme::Maximum)?;
+        Some([low, high])
+    }
+
+    fn attained_extreme(&self, interpolant: &dyn TriangleCubics, which: Extreme) -> Option<f64> {
+        let at_vertices = |cell: usize| {
+            let cubic = interpolant.cubic(cell);
+            let values = (0..3).map(|vertex| cubic.edge(vertex).coefficients[0]);
+            values.reduce(|a, b| which.better(a, b))
+        };
+        let usable = || (0..self.ranges.len()).into_par_iter().filter(|&c| self.ranges[c] != EMPTY);
+        let start = usable().filter_map(at_vertices).reduce_with(|a, b| which.better(a, b))?;
+        let promising = usable().filter(|&cell| {
+            let bound = which.of(self.ranges[cell]);
+            which.better(bound, start) != start
+        });
+        let searched = promising.map(|cell| recursive_extreme(&interpolant.cubic(cell), which).value);
+        Some(searched.reduce(|| start, |a, b| which.better(a, b)))
+    }
+}

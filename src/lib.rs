@@ -15,7 +15,9 @@
 //! | [`pde`] | differential equations given as text |
 
 pub mod bernstein;
+pub mod contour;
 pub mod field;
+pub mod interpolant;
 pub mod mesh;
 pub mod pde;
 pub mod vtk;

@@ -14,7 +14,7 @@
 use nalgebra::{Cholesky, SMatrix, SVector};
 use rayon::prelude::*;
 
-use crate::mesh::{PointNeighbours, TriangleMesh, Vector};
+use crate::mesh::{PointNeighbours, TriangleMesh, Vector, plane_axes};
 
 /// The degree of the polynomials that are fitted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub fn recover_gradients(
                 return Vector::repeat(f64::NAN);
             }
             patch.start(point);
-            let tangents = tangent_axes(&normals[point as usize]);
+            let tangents = plane_axes(&normals[point as usize]);
             patch.gradient(mesh, &neighbours, values, &tangents, degree)
         })
         .collect()
@@ -69,15 +69,6 @@ fn point_normals(mesh: &TriangleMesh) -> Vec<Vector> {
         }
     }
     normals
-}
-
-/// Two unit vectors perpendicular to `normal` and to each other; the x and y
-/// axes for a normal along z, or for none.
-fn tangent_axes(normal: &Vector) -> [Vector; 2] {
-    let normal = normal.try_normalize(0.0).unwrap_or_else(Vector::z);
-    let axis = if normal.x.abs() <= 0.9 { Vector::x() } else { Vector::y() };
-    let first = (axis - normal * axis.dot(&normal)).normalize();
-    [first, normal.cross(&first)]
 }
 
 /// The points around one point, ring by ring; kept between points so that its

@@ -79,6 +79,15 @@ impl TriangleFrame {
     }
 }
 
+/// Two perpendicular unit vectors in the plane with the given normal: the x and y
+/// axes for a normal along z, or for none.
+pub fn plane_axes(normal: &Vector) -> [Vector; 2] {
+    let normal = normal.try_normalize(0.0).unwrap_or_else(Vector::z);
+    let axis = if normal.x.abs() <= 0.9 { Vector::x() } else { Vector::y() };
+    let first = (axis - normal * axis.dot(&normal)).normalize();
+    [first, normal.cross(&first)]
+}
+
 /// The sides opposite the corners, counter-clockwise.
 fn opposite_sides(corners: &[Vector; 3]) -> [Vector; 3] {
     let [a, b, c] = corners;

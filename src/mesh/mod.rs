@@ -10,7 +10,7 @@ mod neighbours;
 mod triangle_mesh;
 
 pub use boundary::boundary_edges;
-pub use frame::TriangleFrame;
+pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;
 pub use triangle_mesh::{MeshError, TriangleMesh};
 

@@ -9,6 +9,7 @@
 use arrayvec::ArrayVec;
 
 use crate::bernstein::{Barycentric, SegmentCubic, Sign};
+use crate::mesh::Vector;
 
 /// The part of the mesh that owns a point of a contour: its name within a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,6 +41,8 @@ pub struct Crossing {
     pub owner: Owner,
     /// Where it lies in the cell.
     pub at: Barycentric,
+    /// Where it lies in space: to the last bit the same in all cells that share it.
+    pub position: Vector,
 }
 
 /// At most three crossings inside a segment and one at each end.

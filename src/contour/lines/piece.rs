@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 
 use super::crossing::{Crossing, MAX_CROSSINGS, Owner, crossings};
 use crate::bernstein::{Barycentric, Sign, TriangleCubic};
+use crate::mesh::TriangleFrame;
 
 /// A crossing on the edge of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,14 +54,8 @@ impl Piece {
         self.signs[1]
     }
 
-    /// The point of the cell at barycentric coordinates of the piece.
-    pub fn in_cell(&self, at: &Barycentric) -> Barycentric {
-        let [a, b, c] = &self.corners;
-        [0, 1, 2].map(|n| at[0] * a[n] + at[1] * b[n] + at[2] * c[n])
-    }
-
     /// The point of the cell at `t` on an edge.
-    pub fn on_edge(&self, edge: usize, t: f64) -> Barycentric {
+    fn on_edge(&self, edge: usize, t: f64) -> Barycentric {
         let (start, end) = (&self.corners[(edge + 1) % 3], &self.corners[(edge + 2) % 3]);
         [0, 1, 2].map(|n| (1.0 - t) * start[n] + t * end[n])
     }
@@ -93,6 +88,8 @@ pub struct Cell<'a> {
     pub number: u32,
     /// The cubic less the level, on the whole cell.
     pub cubic: &'a TriangleCubic,
+    /// The cell's frame.
+    pub frame: &'a TriangleFrame,
     /// All crossings found, on the cell's edges and inside.
     pub crossings: Vec<Crossing>,
 }
@@ -146,16 +143,21 @@ impl Cell<'_> {
             .into_iter()
             .map(|t| {
                 let at = [0, 1, 2].map(|n| (1.0 - t) * from.at[n] + t * to.at[n]);
-                EdgeCrossing { t, crossing: self.add_inside(at) }
+                let (owner, position) = (self.next_owner(), self.frame.position(&at));
+                EdgeCrossing { t, crossing: self.add(Crossing { owner, at, position }) }
             })
             .collect()
     }
 
-    /// Adds a crossing that the cell owns; returns its number.
-    pub fn add_inside(&mut self, at: Barycentric) -> u32 {
-        let place = self.crossings.len() as u32;
-        self.crossings.push(Crossing { owner: Owner::Cell { cell: self.number, place }, at });
-        place
+    /// Adds a crossing; returns its number.
+    pub fn add(&mut self, crossing: Crossing) -> u32 {
+        self.crossings.push(crossing);
+        self.crossings.len() as u32 - 1
+    }
+
+    /// The owner of the next crossing inside this cell.
+    pub fn next_owner(&self) -> Owner {
+        Owner::Cell { cell: self.number, place: self.crossings.len() as u32 }
     }
 
     fn piece(&self, corners: [Corner; 3], edges: [EdgeCrossings; 3], parent: &Piece) -> Piece {

@@ -1,0 +1,231 @@
+//! One cell at one level: from its cubic to the arcs of its contour.
+
+use super::arc::{Arc, Node};
+use super::bezier::Bezier;
+use super::crossing::Crossing;
+use super::curve::{Drawing, Method, Resolution, draw};
+use super::piece::{Cell, EdgeCrossing, Piece};
+use super::situation::{Division, Situation, situation};
+use super::start::{FlatEdge, first_piece, flat_edges};
+use crate::bernstein::{Barycentric, Sign, TriangleCubic};
+use crate::mesh::{TriangleFrame, Vector};
+
+/// What all cells of a level share.
+#[derive(Clone, Copy, Debug)]
+pub struct Tracing {
+    /// The level.
+    pub level: f64,
+    /// Coefficients no further than this from the level lie on it, to rounding.
+    pub rounding: f64,
+    /// How arcs are drawn.
+    pub method: Method,
+    /// How finely.
+    pub resolution: Resolution,
+}
+
+/// An arc of the contour in a cell, directed with the higher side on its left.
+#[derive(Clone, Copy, Debug)]
+pub struct Strand {
+    /// Its first point.
+    pub start: Crossing,
+    /// Its last point.
+    pub end: Crossing,
+    /// The cell.
+    pub cell: u32,
+    /// Where its inner points begin in [`Traces::points`]; they end where those
+    /// of the next strand begin.
+    pub first_point: usize,
+    /// The same for its pieces in [`Traces::curves`].
+    pub first_curve: usize,
+}
+
+/// A point of a strand between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InnerPoint {
+    /// Where in the cell.
+    pub at: Barycentric,
+    /// Where in space.
+    pub position: Vector,
+}
+
+/// What was found in a series of cells.
+#[derive(Debug, Default)]
+pub struct Traces {
+    /// The arcs.
+    pub strands: Vec<Strand>,
+    /// Inner points of all arcs.
+    pub points: Vec<InnerPoint>,
+    /// Bézier pieces of all arcs.
+    pub curves: Vec<Bezier>,
+    /// Edges on the level, once from each of their cells.
+    pub flat_edges: Vec<FlatEdge>,
+    /// Cells that were divided.
+    pub divided: usize,
+    /// Pieces whose contour could not be settled.
+    pub unresolved: usize,
+    drawing: Drawing,
+}
+
+/// Divisions of a piece beyond which it is left unresolved. Each halves an edge,
+/// so the piece is then 2⁻³² of its cell: coefficients that far apart differ by
+/// rounding alone.
+const MAX_DEPTH: u32 = 64;
+
+/// Pieces of a cell beyond which the rest is left unresolved. A contour that can
+/// be settled needs some tens; only one that is double along a whole curve,
+/// such as the level 0 of x², asks for so many.
+const MAX_PIECES: usize = 4096;
+
+/// Finds the contour in one cell. `points` are the numbers of its corners, and
+/// `cubic` is the interpolant there.
+pub fn trace(
+    tracing: &Tracing,
+    cell: u32,
+    points: [u32; 3],
+    cubic: &TriangleCubic,
+    frame: &TriangleFrame,
+    traces: &mut Traces,
+) {
+    let whole = TriangleCubic::new(cubic.coefficients.map(|c| {
+        let difference = c - tracing.level;
+        if difference.abs() <= tracing.rounding { 0.0 } else { difference }
+    }));
+    let flat = flat_edges(cell, points, &whole);
+    traces.flat_edges.extend_from_slice(&flat);
+    let divided = if flat.is_empty() { whole } else { whole.without_zero_sides() };
+    if divided.coefficients == [0.0; 10] {
+        return;
+    }
+    let mut cell = Cell { number: cell, cubic: &divided, frame, crossings: Vec::new() };
+    let first = first_piece(&mut cell, &whole, points);
+    trace_pieces(tracing, &mut cell, first, traces);
+}
+
+fn trace_pieces(tracing: &Tracing, cell: &mut Cell, first: Piece, traces: &mut Traces) {
+    let mut waiting = vec![first];
+    let mut seen = 0;
+    while let Some(piece) = waiting.pop() {
+        seen += 1;
+        let corners = piece.corners.map(|corner| cell.frame.position(&corner));
+        match situation(&piece, &corners) {
+            Situation::Empty => join_along_border(cell, &piece, traces),
+            Situation::Simple { apex } => draw_arc(tracing, cell, &piece, apex, traces),
+            Situation::Undecided(_) if is_at_limit(tracing, &piece, seen) => {
+                traces.unresolved += 1;
+                join_nearest(cell, &piece, traces);
+            }
+            Situation::Undecided(Division::Four) => waiting.extend(cell.quadrisect(&piece)),
+            Situation::Undecided(Division::Edge { edge, t }) => {
+                waiting.extend(cell.split_edge(&piece, edge, t));
+            }
+        }
+    }
+    traces.divided += usize::from(seen > 1);
+}
+
+/// Whether dividing a piece further would only resolve rounding.
+fn is_at_limit(tracing: &Tracing, piece: &Piece, seen: usize) -> bool {
+    let (low, high) = piece.cubic.bounds();
+    piece.depth >= MAX_DEPTH || seen >= MAX_PIECES || high.max(-low) <= tracing.rounding
+}
+
+/// Draws the one arc of a simple piece.
+fn draw_arc(tracing: &Tracing, cell: &Cell, piece: &Piece, apex: usize, traces: &mut Traces) {
+    let mut border = piece.border();
+    let (Some(first), Some(second)) = (border.next(), border.next()) else { return };
+    // the higher side is on the left if the border leaves it where the arc begins
+    let (start, end) = match piece.signs[1] {
+        Sign::Above => (first, second),
+        Sign::Below => (second, first),
+    };
+    let crossing = |on_border: (usize, EdgeCrossing)| cell.crossings[on_border.1.crossing as usize];
+    let mut drawing = std::mem::take(&mut traces.drawing);
+    if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece.corners, apex) {
+        let node = |on_border: (usize, EdgeCrossing)| {
+            let crossing = crossing(on_border);
+            arc.node(crossing.at, crossing.position, ray(apex, on_border))
+        };
+        let ends = [node(start), node(end)];
+        draw(&arc, [&ends[0], &ends[1]], tracing.method, &tracing.resolution, &mut drawing);
+    }
+    traces.add(cell, crossing(start), crossing(end), &mut drawing);
+    traces.drawing = drawing;
+}
+
+/// Where the ray from the apex to a crossing of the border meets the base.
+fn ray(apex: usize, (edge, crossing): (usize, EdgeCrossing)) -> f64 {
+    if edge == apex {
+        crossing.t
+    } else if edge == (apex + 2) % 3 {
+        0.0
+    } else {
+        1.0
+    }
+}
+
+/// Joins the crossings of a piece in which all coefficients have one sign: the
+/// parts of the border on the other side are those where the cubic is zero, and
+/// the contour runs along them.
+fn join_along_border(cell: &Cell, piece: &Piece, traces: &mut Traces) {
+    let (low, high) = piece.cubic.bounds();
+    let zero_side = if high > -low { Sign::Below } else { Sign::Above };
+    traces.add_straight(cell, &pairs_around(piece, zero_side));
+}
+
+/// Joins the crossings of an unresolved piece by straight lines, in the shorter of
+/// the two ways that do not cross.
+fn join_nearest(cell: &Cell, piece: &Piece, traces: &mut Traces) {
+    let position = |crossing: u32| cell.crossings[crossing as usize].position;
+    let length = |pairs: &[[u32; 2]]| -> f64 {
+        pairs.iter().map(|&[a, b]| (position(a) - position(b)).norm()).sum()
+    };
+    let (above, below) = (pairs_around(piece, Sign::Above), pairs_around(piece, Sign::Below));
+    let shorter = if length(&above) <= length(&below) { above } else { below };
+    traces.add_straight(cell, &shorter);
+}
+
+/// The crossings of a piece in pairs, each at the two ends of a part of the border
+/// that lies on the given side, and directed with the higher side on the left.
+fn pairs_around(piece: &Piece, side: Sign) -> Vec<[u32; 2]> {
+    let mut border: Vec<u32> = piece.border().map(|(_, crossing)| crossing.crossing).collect();
+    // after the first crossing the border is on the other side than corner 1
+    if piece.signs[1] == side && !border.is_empty() {
+        border.rotate_left(1);
+    }
+    let directed = |pair: &[u32]| match side {
+        Sign::Above => [pair[1], pair[0]],
+        Sign::Below => [pair[0], pair[1]],
+    };
+    border.chunks_exact(2).map(directed).collect()
+}
+
+impl Traces {
+    /// Adds straight strands between pairs of crossings.
+    fn add_straight(&mut self, cell: &Cell, pairs: &[[u32; 2]]) {
+        for pair in pairs {
+            let [start, end] = pair.map(|crossing| cell.crossings[crossing as usize]);
+            self.add(cell, start, end, &mut Drawing::default());
+        }
+    }
+
+    /// Adds a strand and empties its drawing; passes over one without length.
+    fn add(&mut self, cell: &Cell, start: Crossing, end: Crossing, drawing: &mut Drawing) {
+        if drawing.points.is_empty() && start.position == end.position {
+            drawing.curves.clear();
+            return;
+        }
+        self.strands.push(Strand {
+            start,
+            end,
+            cell: cell.number,
+            first_point: self.points.len(),
+            first_curve: self.curves.len(),
+        });
+        if drawing.curves.is_empty() {
+            drawing.curves.push(Bezier::line(start.position, end.position));
+        }
+        let inner = |node: Node| InnerPoint { at: node.at, position: node.position };
+        self.points.extend(drawing.points.drain(..).map(inner));
+        self.curves.append(&mut drawing.curves);
+    }
+}

@@ -9,6 +9,14 @@ const WINDOW: usize = 72;
 ///
 /// [`Display`](std::fmt::Display) is one line that names the character;
 /// [`caret`](PdeError::caret) shows it in the text.
+///
+/// ```
+/// use vtu2contour::pde::Pde;
+///
+/// let error = Pde::parse("uxx + uyy = 2x", &[], &[]).unwrap_err();
+/// assert_eq!(error.to_string(), "character 14: `2` and `x` stand side by side; write `2*x`");
+/// assert_eq!(error.caret(), "  uxx + uyy = 2x\n               ^");
+/// ```
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}{problem}", place(.text, *.at))]
 pub struct PdeError {

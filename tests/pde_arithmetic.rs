@@ -3,12 +3,8 @@
 use std::f64::consts::{E, PI};
 use vtu2contour::pde::{Pde, Sample};
 
-const AT: Sample = Sample {
-    x: [3.0, 5.0, 7.0],
-    u: 11.0,
-    gradient: [13.0, 17.0, 19.0],
-    arrays: &[],
-};
+const AT: Sample =
+    Sample { x: [3.0, 5.0, 7.0], u: 11.0, gradient: [13.0, 17.0, 19.0], arrays: &[] };
 
 fn pde(expression: &str) -> Pde {
     Pde::parse(&format!("uxx = {expression}"), &[], &[]).unwrap()
@@ -135,16 +131,10 @@ fn operators() {
         ("uxx + uyy = 0", [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
         ("laplacian(u) = 0", [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
         ("-lap(u)/2 = 0", [-0.5, -0.5, -0.5, 0.0, 0.0, 0.0]),
-        (
-            "(1+x^2)*uxx + 2*uyy - y*uxy/3 = 0",
-            [10.0, 2.0, 0.0, -5.0 / 3.0, 0.0, 0.0],
-        ),
+        ("(1+x^2)*uxx + 2*uyy - y*uxy/3 = 0", [10.0, 2.0, 0.0, -5.0 / 3.0, 0.0, 0.0]),
         ("-(uxx+uyy) = 0", [-1.0, -1.0, 0.0, 0.0, 0.0, 0.0]),
         ("uxx*2 = 0", [2.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        (
-            "uyx + uxy + 4*uzx - uzy = 0",
-            [0.0, 0.0, 0.0, 2.0, 4.0, -1.0],
-        ),
+        ("uyx + uxy + 4*uzx - uzy = 0", [0.0, 0.0, 0.0, 2.0, 4.0, -1.0]),
         ("0 = uxx - z*uzz", [-1.0, 0.0, 7.0, 0.0, 0.0, 0.0]),
         ("3*uxx = uxx + uyy", [2.0, -1.0, 0.0, 0.0, 0.0, 0.0]),
         ("2*(x*(uxx - uyy) + u) = 0", [6.0, -6.0, 0.0, 0.0, 0.0, 0.0]),
@@ -175,9 +165,7 @@ fn terms_change_sides() {
 fn constant_operators() {
     let constant = |equation| {
         let k = [("k".to_owned(), 2.0)];
-        Pde::parse(equation, &k, &[])
-            .unwrap()
-            .operator_is_constant()
+        Pde::parse(equation, &k, &[]).unwrap().operator_is_constant()
     };
     assert!(constant("uxx + k*pi*uyy/3 = x*u"));
     assert!(!constant("uxx + x*uyy = 0"));
@@ -197,14 +185,8 @@ fn arrays_and_parameters() {
     let text = "uxx = k*`my array` + T - `my array`*`u` + u + `k`";
     let pde = Pde::parse(text, &parameters, &arrays).unwrap();
     assert_eq!(pde.used_arrays(), [1, 0, 2, 4], "in the order of use");
-    let sample = Sample {
-        arrays: &[2.0, 3.0, 5.0, 0.25],
-        ..AT
-    };
-    assert_eq!(
-        pde.right_hand_side(&sample),
-        200.0 + 3.0 - 10.0 + 11.0 + 0.25
-    );
+    let sample = Sample { arrays: &[2.0, 3.0, 5.0, 0.25], ..AT };
+    assert_eq!(pde.right_hand_side(&sample), 200.0 + 3.0 - 10.0 + 11.0 + 0.25);
 }
 
 #[test]
@@ -322,10 +304,7 @@ fn the_branch_not_taken_has_no_say() {
     let line = pde("max(u, -2)*2 + min(u, sqrt(u + 1))").linearization(&at);
     assert_eq!(line.u, 2.0 + 1.0);
     assert_eq!(pde("abs(u)").linearization(&Sample { u: 0.0, ..AT }).u, 0.0);
-    assert_eq!(
-        pde("max(u, 0)").linearization(&Sample { u: 0.0, ..AT }).u,
-        0.5
-    );
+    assert_eq!(pde("max(u, 0)").linearization(&Sample { u: 0.0, ..AT }).u, 0.5);
 }
 
 #[test]

@@ -38,100 +38,49 @@ fn characters_and_numbers() {
 #[test]
 fn equals_signs() {
     check(&[
-        (
-            "",
-            "character 1: expected a number, a name or `(`, found the end".into(),
-        ),
+        ("", "character 1: expected a number, a name or `(`, found the end".into()),
         (
             "uxx + uyy  ",
             "character 10: there is no `=`; write an equation such as `uxx + uyy = 0`".into(),
         ),
-        (
-            "uxx = 1 = 2",
-            "character 9: a second `=`; an equation has one".into(),
-        ),
-        (
-            "uxx == 1",
-            "character 6: expected a number, a name or `(`, found `=`".into(),
-        ),
-        (
-            "uxx =",
-            "character 6: expected a number, a name or `(`, found the end".into(),
-        ),
+        ("uxx = 1 = 2", "character 9: a second `=`; an equation has one".into()),
+        ("uxx == 1", "character 6: expected a number, a name or `(`, found `=`".into()),
+        ("uxx =", "character 6: expected a number, a name or `(`, found the end".into()),
     ]);
 }
 
 #[test]
 fn structure() {
     check(&[
-        (
-            "uxx = 2*/3",
-            "character 9: expected a number, a name or `(`, found `/`".into(),
-        ),
+        ("uxx = 2*/3", "character 9: expected a number, a name or `(`, found `/`".into()),
         ("uxx = (1 + 2", "character 7: this `(` is not closed".into()),
         ("(uxx = 2)", "character 1: this `(` is not closed".into()),
         ("uxx = 1)", "character 8: this `)` closes nothing".into()),
         ("uxx) = 1", "character 4: this `)` closes nothing".into()),
-        (
-            "uxx = 1, 2",
-            "character 8: expected an operator, found `,`".into(),
-        ),
-        (
-            "uxx = (1, 2)",
-            "character 9: expected an operator, found `,`".into(),
-        ),
-        (
-            "uxx = ()",
-            "character 8: expected a number, a name or `(`, found `)`".into(),
-        ),
+        ("uxx = 1, 2", "character 8: expected an operator, found `,`".into()),
+        ("uxx = (1, 2)", "character 9: expected an operator, found `,`".into()),
+        ("uxx = ()", "character 8: expected a number, a name or `(`, found `)`".into()),
     ]);
 }
 
 #[test]
 fn implicit_products() {
     check(&[
-        (
-            "uxx = 2x",
-            "character 8: `2` and `x` stand side by side; write `2*x`".into(),
-        ),
-        (
-            "uxx = 2 pi",
-            "character 9: `2` and `pi` stand side by side; write `2*pi`".into(),
-        ),
-        (
-            "uxx = 2e",
-            "character 8: `2` and `e` stand side by side; write `2*e`".into(),
-        ),
-        (
-            "uxx = (x)(y)",
-            "character 10: `)` and `(` stand side by side; write `)*(`".into(),
-        ),
-        (
-            "uxx = x(1 + y)",
-            "character 7: `x` is not a function; to multiply, write `x*(`".into(),
-        ),
+        ("uxx = 2x", "character 8: `2` and `x` stand side by side; write `2*x`".into()),
+        ("uxx = 2 pi", "character 9: `2` and `pi` stand side by side; write `2*pi`".into()),
+        ("uxx = 2e", "character 8: `2` and `e` stand side by side; write `2*e`".into()),
+        ("uxx = (x)(y)", "character 10: `)` and `(` stand side by side; write `)*(`".into()),
+        ("uxx = x(1 + y)", "character 7: `x` is not a function; to multiply, write `x*(`".into()),
     ]);
 }
 
 #[test]
 fn functions() {
     check(&[
-        (
-            "uxx = sin x",
-            "character 7: `sin` is a function; write `sin(...)`".into(),
-        ),
-        (
-            "uxx = atan2(x)",
-            "character 7: `atan2` takes 2 arguments, not 1".into(),
-        ),
-        (
-            "uxx = sin(x, y)",
-            "character 7: `sin` takes 1 argument, not 2".into(),
-        ),
-        (
-            "uxx = sin()",
-            "character 7: `sin` takes 1 argument, not 0".into(),
-        ),
+        ("uxx = sin x", "character 7: `sin` is a function; write `sin(...)`".into()),
+        ("uxx = atan2(x)", "character 7: `atan2` takes 2 arguments, not 1".into()),
+        ("uxx = sin(x, y)", "character 7: `sin` takes 1 argument, not 2".into()),
+        ("uxx = sin()", "character 7: `sin` takes 1 argument, not 0".into()),
         (
             "lap(v) = 1",
             "character 5: only `lap(u)` can be read, with nothing else between the parentheses"
@@ -149,10 +98,7 @@ fn functions() {
 #[test]
 fn unknown_names() {
     check(&[
-        (
-            "uxx = w",
-            format!("character 7: unknown name `w`; known are {KNOWN}, T, `my array`"),
-        ),
+        ("uxx = w", format!("character 7: unknown name `w`; known are {KNOWN}, T, `my array`")),
         (
             "uxx = my_array",
             format!(
@@ -169,34 +115,13 @@ fn unknown_names() {
 #[test]
 fn not_linear_in_the_second_derivatives() {
     check(&[
-        (
-            "uxx^2 = 1",
-            format!("character 1: `uxx` stands in a power; {LINEAR}"),
-        ),
-        (
-            "2^uxx = 1",
-            format!("character 3: `uxx` stands in a power; {LINEAR}"),
-        ),
-        (
-            "1/uyx = 1",
-            format!("character 3: `uyx` stands in a divisor; {LINEAR}"),
-        ),
-        (
-            "uxx/uyy = 1",
-            format!("character 1: `uxx` stands in a divisor; {LINEAR}"),
-        ),
-        (
-            "1 + sin(uxx) = 1",
-            format!("character 9: `uxx` stands in `sin`; {LINEAR}"),
-        ),
-        (
-            "max(x, uxx) = 1",
-            format!("character 8: `uxx` stands in `max`; {LINEAR}"),
-        ),
-        (
-            "uxx*uyy = 1",
-            format!("character 5: `uxx` is multiplied by `uyy`; {LINEAR}"),
-        ),
+        ("uxx^2 = 1", format!("character 1: `uxx` stands in a power; {LINEAR}")),
+        ("2^uxx = 1", format!("character 3: `uxx` stands in a power; {LINEAR}")),
+        ("1/uyx = 1", format!("character 3: `uyx` stands in a divisor; {LINEAR}")),
+        ("uxx/uyy = 1", format!("character 1: `uxx` stands in a divisor; {LINEAR}")),
+        ("1 + sin(uxx) = 1", format!("character 9: `uxx` stands in `sin`; {LINEAR}")),
+        ("max(x, uxx) = 1", format!("character 8: `uxx` stands in `max`; {LINEAR}")),
+        ("uxx*uyy = 1", format!("character 5: `uxx` is multiplied by `uyy`; {LINEAR}")),
         (
             "uyy + u*uxx = 1",
             format!("character 7: the coefficient of `uxx` depends on `u`; {COEFFICIENT}"),
@@ -226,26 +151,14 @@ fn no_operator() {
             "uyy = uyy",
             "character 1: the second derivatives cancel: all their coefficients are zero".into(),
         ),
-        (
-            "uxx + uyy/0 = 1",
-            "character 7: the coefficient of `uyy` is not a finite number".into(),
-        ),
-        (
-            "log(-1)*uxx = 1",
-            "character 9: the coefficient of `uxx` is not a finite number".into(),
-        ),
+        ("uxx + uyy/0 = 1", "character 7: the coefficient of `uyy` is not a finite number".into()),
+        ("log(-1)*uxx = 1", "character 9: the coefficient of `uxx` is not a finite number".into()),
     ]);
 }
 
 #[test]
 fn depth_and_length() {
-    for (open, close) in [
-        ("(", ")"),
-        ("-", ""),
-        ("x^", ""),
-        ("sin(", ")"),
-        ("1+2*(", ")"),
-    ] {
+    for (open, close) in [("(", ")"), ("-", ""), ("x^", ""), ("sin(", ")"), ("1+2*(", ")")] {
         let nested = format!("uxx = {}x{}", open.repeat(10_000), close.repeat(10_000));
         let error = Pde::parse(&nested, &[], &[]).unwrap_err();
         assert_eq!(*error.problem(), Problem::TooDeep(256), "{open}");
@@ -267,11 +180,7 @@ fn parameters() {
             1.0,
             "the parameter `uyx` has the name of a coordinate, of u or of a derivative; rename it",
         ),
-        (
-            "2k",
-            1.0,
-            "the parameter name `2k` is not a letter followed by letters, digits and `_`",
-        ),
+        ("2k", 1.0, "the parameter name `2k` is not a letter followed by letters, digits and `_`"),
         ("k", f64::NAN, "the parameter `k` is not a finite number"),
         ("twice", 1.0, "the parameter `twice` is given twice"),
     ] {
@@ -284,20 +193,11 @@ fn parameters() {
 
 #[test]
 fn the_caret_stands_under_the_character() {
-    let error = Pde::parse(
-        "uxx + uyy = sin(pi*x) + 2*bta",
-        &[("beta".into(), 1.0)],
-        &[],
-    );
+    let error = Pde::parse("uxx + uyy = sin(pi*x) + 2*bta", &[("beta".into(), 1.0)], &[]);
     let error = error.unwrap_err();
-    assert_eq!(
-        error.caret(),
-        "  uxx + uyy = sin(pi*x) + 2*bta\n                            ^"
-    );
+    assert_eq!(error.caret(), "  uxx + uyy = sin(pi*x) + 2*bta\n                            ^");
     assert!(
-        error
-            .to_string()
-            .starts_with("character 27: unknown name `bta`, did you mean `beta`?")
+        error.to_string().starts_with("character 27: unknown name `bta`, did you mean `beta`?")
     );
 }
 

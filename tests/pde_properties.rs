@@ -24,12 +24,8 @@ const SMOOTH: [Named; 11] = [
     ("log2", f64::log2),
 ];
 
-const OTHER: [Named; 4] = [
-    ("abs", f64::abs),
-    ("floor", f64::floor),
-    ("ceil", f64::ceil),
-    ("cbrt", f64::cbrt),
-];
+const OTHER: [Named; 4] =
+    [("abs", f64::abs), ("floor", f64::floor), ("ceil", f64::ceil), ("cbrt", f64::cbrt)];
 
 #[derive(Debug, Clone)]
 enum Tree {
@@ -133,12 +129,7 @@ fn inputs() -> impl Strategy<Value = [f64; 9]> {
 }
 
 fn sample(v: &[f64; 9]) -> Sample<'_> {
-    Sample {
-        x: [v[0], v[1], v[2]],
-        u: v[3],
-        gradient: [v[4], v[5], v[6]],
-        arrays: &v[7..],
-    }
+    Sample { x: [v[0], v[1], v[2]], u: v[3], gradient: [v[4], v[5], v[6]], arrays: &v[7..] }
 }
 
 /// The equation `uxx = tree`, and its text.
@@ -275,12 +266,7 @@ fn check_refusal(text: &str) {
 type Term = (Tree, Option<usize>, u8, bool);
 
 fn sides() -> impl Strategy<Value = Vec<Term>> {
-    let with = (
-        trees(3, 15),
-        (0..6usize).prop_map(Some),
-        0..4u8,
-        any::<bool>(),
-    );
+    let with = (trees(3, 15), (0..6usize).prop_map(Some), 0..4u8, any::<bool>());
     let without = (trees(7, 15), Just(None), Just(0u8), any::<bool>());
     prop::collection::vec(prop_oneof![with, without], 1..6)
 }

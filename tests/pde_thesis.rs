@@ -98,11 +98,7 @@ impl Mul<Jet> for Jet {
     type Output = Jet;
     fn mul(self, o: Jet) -> Jet {
         let d = self.1 * o.0 + self.0 * o.1;
-        Jet(
-            self.0 * o.0,
-            d,
-            self.2 * o.0 + 2.0 * self.1 * o.1 + self.0 * o.2,
-        )
+        Jet(self.0 * o.0, d, self.2 * o.0 + 2.0 * self.1 * o.1 + self.0 * o.2)
     }
 }
 
@@ -184,15 +180,9 @@ proptest! {
 fn the_operators_are_laplacians() {
     for text in [PROBLEM_1, PROBLEM_2, PROBLEM_3, PROBLEM_4] {
         assert!(parse(text).operator_is_constant());
-        assert_eq!(
-            parse(text).operator(&[0.3; 3]),
-            [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]
-        );
+        assert_eq!(parse(text).operator(&[0.3; 3]), [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     }
     for text in [PROBLEM_5, PROBLEM_6, PROBLEM_7] {
-        assert_eq!(
-            parse(text).operator(&[0.3; 3]),
-            [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-        );
+        assert_eq!(parse(text).operator(&[0.3; 3]), [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     }
 }

@@ -24,7 +24,7 @@ mod segment;
 mod sign;
 mod triangle;
 
-pub use barycentric::Barycentric;
+pub use barycentric::{Barycentric, between};
 pub use roots::{MAX_ROOTS, Root, RootKind, Roots};
 pub use segment::SegmentCubic;
 pub use sign::Sign;

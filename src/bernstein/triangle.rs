@@ -254,7 +254,7 @@ mod tests {
 
         #[test]
         fn restriction_is_the_polynomial(p in cubics(), a in inside(), b in inside(), t in 0.0..1.0f64) {
-            let at = super::super::barycentric::between(&a, &b, t);
+            let at = super::super::between(&a, &b, t);
             prop_assert!((p.restrict(&a, &b).value(t) - p.value(&at)).abs() < 1e-14);
         }
 
@@ -273,7 +273,7 @@ mod tests {
         #[test]
         fn derivatives_are_slopes(p in cubics(), a in inside(), b in inside()) {
             let line = p.restrict(&a, &b);
-            let middle = super::super::barycentric::between(&a, &b, 0.5);
+            let middle = super::super::between(&a, &b, 0.5);
             let direction: Vec<f64> = (0..3).map(|n| b[n] - a[n]).collect();
             let gradient = p.barycentric_gradient(&middle);
             let hessian = p.barycentric_hessian(&middle);

@@ -6,7 +6,7 @@
 //! The result is a value that the cubic *attains*, so it lies inside the certain
 //! bounds; it may fall short of the true extreme.
 
-use crate::bernstein::{Barycentric, SegmentCubic, TriangleCubic};
+use crate::bernstein::{Barycentric, SegmentCubic, TriangleCubic, between};
 
 /// Which extreme is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,8 +86,7 @@ fn extreme_on_side(
         }
     }
     let (value, t) = best;
-    let at = [0, 1, 2].map(|n| (1.0 - t) * start[n] + t * end[n]);
-    (Attained { value, at }, t > 0.0 && t < 1.0)
+    (Attained { value, at: between(start, end, t) }, t > 0.0 && t < 1.0)
 }
 
 fn best_of(found: &[Attained], which: Extreme) -> Attained {

@@ -56,7 +56,11 @@ impl CellRanges {
     /// The largest magnitude in any range; zero without usable cells.
     pub fn magnitude(&self) -> f64 {
         let magnitude = |range: &[f64; 2]| range[0].abs().max(range[1].abs());
-        self.ranges.par_iter().filter(|&&range| range != EMPTY).map(magnitude).reduce(|| 0.0, f64::max)
+        self.ranges
+            .par_iter()
+            .filter(|&&range| range != EMPTY)
+            .map(magnitude)
+            .reduce(|| 0.0, f64::max)
     }
 
     /// Least and greatest value that the interpolant attains, by the recursive
@@ -82,7 +86,8 @@ impl CellRanges {
             let bound = which.of(self.ranges[cell]);
             which.better(bound, start) != start
         });
-        let searched = promising.map(|cell| recursive_extreme(&interpolant.cubic(cell), which).value);
+        let searched =
+            promising.map(|cell| recursive_extreme(&interpolant.cubic(cell), which).value);
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
     }
 }

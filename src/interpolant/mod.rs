@@ -7,7 +7,7 @@ mod linear;
 mod pci;
 
 pub use linear::Linear;
-pub use pci::{Pci, Predictor};
+pub use pci::{Equation, Pci, Predictor};
 
 use crate::bernstein::TriangleCubic;
 use crate::mesh::TriangleMesh;
@@ -22,10 +22,4 @@ pub trait TriangleCubics: Sync {
 
     /// The cubic on a triangle.
     fn cubic(&self, triangle: usize) -> TriangleCubic;
-
-    /// Whether the cubic on a triangle can be used: not where data are missing
-    /// (NaN) or infinite.
-    fn is_usable(&self, triangle: usize) -> bool {
-        self.cubic(triangle).coefficients.iter().all(|c| c.is_finite())
-    }
 }

@@ -20,7 +20,7 @@ use super::TriangleCubics;
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
 use crate::mesh::{TriangleFrame, TriangleMesh};
-use crate::pde::{Pde, Sample};
+use crate::pde::{Batch, LANES, Pde, Sample};
 
 /// Where `g` takes `Û` and its gradient from (thesis, after eq. 1.10).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,6 +31,43 @@ pub enum Predictor {
     /// left of the error in `g` on the thesis' fourth problem.
     #[default]
     Quadratic,
+}
+
+/// A PDE, with what its right-hand side is evaluated at.
+#[derive(Clone, Copy, Debug)]
+pub struct Equation<'a> {
+    /// The PDE.
+    pub pde: &'a Pde,
+    /// For each array of [`Pde::used_arrays`], one value a point of the mesh.
+    pub arrays: &'a [Vec<f64>],
+    /// Where `g` takes the solution from.
+    pub predictor: Predictor,
+}
+
+impl Equation<'_> {
+    /// Adds the sample at the centroid of a triangle.
+    fn push_sample(
+        &self,
+        batch: &mut Batch,
+        mesh: &TriangleMesh,
+        triangle: usize,
+        start: &TriangleCubic,
+    ) {
+        let frame = mesh.frame(triangle);
+        let predicted = match self.predictor {
+            Predictor::Linear => TriangleCubic::linear(vertex_values(start)),
+            Predictor::Quadratic => *start,
+        };
+        let points = mesh.triangles()[triangle].map(|point| point as usize);
+        let at_centroid = |array: &Vec<f64>| points.iter().map(|&p| array[p]).sum::<f64>() / 3.0;
+        let arrays: Vec<f64> = self.arrays.iter().map(at_centroid).collect();
+        batch.push(&Sample {
+            x: frame.position(&CENTROID).into(),
+            u: predicted.value(&CENTROID),
+            gradient: frame.gradient(&predicted.barycentric_gradient(&CENTROID)).into(),
+            arrays: &arrays,
+        });
+    }
 }
 
 /// The pure cubic interpolant of a field on a mesh of triangles.
@@ -48,6 +85,9 @@ pub struct Pci<'a> {
 /// would be multiplied by more than a hundred.
 const SINGULAR: f64 = 1e-2;
 
+/// Triangles collocated at a time by one thread: whole batches of the PDE.
+const CHUNK: usize = 4 * LANES;
+
 const CENTROID: Barycentric = [1.0 / 3.0; 3];
 
 impl<'a> Pci<'a> {
@@ -63,26 +103,15 @@ impl<'a> Pci<'a> {
         Self { mesh, field, centres, singular: 0 }
     }
 
-    /// The interpolant that also satisfies `pde` at the centroid of each triangle.
+    /// The interpolant that also satisfies a PDE at the centroid of each triangle.
     ///
     /// It reproduces any cubic that solves the PDE. Where the collocation is
     /// singular (see [`Pci::singular`]) the PDE is left out.
-    pub fn with_pde(
-        mesh: &'a TriangleMesh,
-        field: Field<'a>,
-        pde: &Pde,
-        predictor: Predictor,
-    ) -> Self {
-        let collocated: Vec<(f64, bool)> = (0..mesh.triangles().len())
-            .into_par_iter()
-            .map(|triangle| {
-                let start = quadratic_precision(mesh, &field, triangle);
-                let frame = mesh.frame(triangle);
-                match collocate(&start, &frame, pde, predictor) {
-                    Some(centre) => (centre, false),
-                    None => (start.coefficients[TriangleCubic::CENTRE], true),
-                }
-            })
+    pub fn with_pde(mesh: &'a TriangleMesh, field: Field<'a>, equation: &Equation) -> Self {
+        let triangles: Vec<usize> = (0..mesh.triangles().len()).collect();
+        let collocated: Vec<(f64, bool)> = triangles
+            .par_chunks(CHUNK)
+            .flat_map_iter(|chunk| collocate(mesh, &field, equation, chunk))
             .collect();
         let singular = collocated.iter().filter(|(_, singular)| *singular).count();
         let centres = collocated.into_iter().map(|(centre, _)| centre).collect();
@@ -127,31 +156,42 @@ fn quadratic_precision(mesh: &TriangleMesh, field: &Field, triangle: usize) -> T
     cubic
 }
 
-/// The `b_111` with which `L p = g` at the centroid (thesis, eq. 1.10), unless
-/// that equation is singular.
+/// The `b_111` of each triangle with which `L p = g` at its centroid (thesis,
+/// eq. 1.10); where that equation is singular, the one that reproduces quadratics,
+/// and true.
 fn collocate(
-    start: &TriangleCubic,
-    frame: &TriangleFrame,
-    pde: &Pde,
-    predictor: Predictor,
-) -> Option<f64> {
-    let centroid = frame.position(&CENTROID);
-    let weights = operator_weights(&pde.operator(&centroid.into()), frame);
-    let predicted = match predictor {
-        Predictor::Linear => TriangleCubic::linear(vertex_values(start)),
-        Predictor::Quadratic => *start,
-    };
-    let sample = Sample {
-        x: centroid.into(),
-        u: predicted.value(&CENTROID),
-        gradient: frame.gradient(&predicted.barycentric_gradient(&CENTROID)).into(),
-    };
-    let defect = pde.right_hand_side(&sample) - apply(&weights, start);
-    let factor = centre_factor(&weights);
+    mesh: &TriangleMesh,
+    field: &Field,
+    equation: &Equation,
+    triangles: &[usize],
+) -> Vec<(f64, bool)> {
+    let mut batch = equation.pde.batch();
+    let starts: Vec<TriangleCubic> = triangles
+        .iter()
+        .map(|&triangle| {
+            let start = quadratic_precision(mesh, field, triangle);
+            equation.push_sample(&mut batch, mesh, triangle, &start);
+            start
+        })
+        .collect();
+    let (mut operators, mut right_hand_sides) = (Vec::new(), Vec::new());
+    equation.pde.operators(&batch, &mut operators);
+    equation.pde.right_hand_sides(&batch, &mut right_hand_sides);
+    let given = operators.iter().zip(&right_hand_sides);
+    let centres = triangles.iter().zip(&starts).zip(given).map(|((&triangle, start), (l, &g))| {
+        let correction = correction(start, &operator_weights(l, &mesh.frame(triangle)), g);
+        let centre = start.coefficients[TriangleCubic::CENTRE] + correction.unwrap_or(0.0);
+        (centre, correction.is_none())
+    });
+    centres.collect()
+}
+
+/// What to add to `b_111` for `L p = g`, unless that equation is singular.
+fn correction(start: &TriangleCubic, weights: &[[f64; 3]; 3], g: f64) -> Option<f64> {
+    let factor = centre_factor(weights);
     let size: f64 = weights.iter().flatten().map(|weight| weight.abs()).sum();
-    let correction = defect / factor;
-    (factor.abs() > SINGULAR * size && correction.is_finite())
-        .then(|| start.coefficients[TriangleCubic::CENTRE] + correction)
+    let correction = (g - apply(weights, start)) / factor;
+    (factor.abs() > SINGULAR * size && correction.is_finite()).then_some(correction)
 }
 
 /// The operator in barycentric coordinates: `L p = Σ wᵢⱼ ∂²p/∂λᵢ∂λⱼ` with

@@ -119,8 +119,7 @@ impl Pde {
     /// The right-hand sides at the points of a batch, bit for bit those of
     /// [`right_hand_side`](Pde::right_hand_side); `out` is overwritten.
     pub fn right_hand_sides(&self, batch: &Batch, out: &mut Vec<f64>) {
-        self.right_hand_side
-            .evaluate_batch(batch, out, |[value]| value);
+        self.right_hand_side.evaluate_batch(batch, out, |[value]| value);
     }
 
     /// Whether g depends on u, ux, uy or uz. If not, the collocation needs no
@@ -141,8 +140,7 @@ impl Pde {
     /// The linearizations at the points of a batch, bit for bit those of
     /// [`linearization`](Pde::linearization); `out` is overwritten.
     pub fn linearizations(&self, batch: &Batch, out: &mut Vec<Linearization>) {
-        self.linearization
-            .evaluate_batch(batch, out, Linearization::new);
+        self.linearization.evaluate_batch(batch, out, Linearization::new);
     }
 
     /// The point arrays that the equation names, as indices into the list given
@@ -160,10 +158,6 @@ impl Pde {
 
 impl Linearization {
     fn new([value, u, ux, uy, uz]: [f64; 5]) -> Linearization {
-        Linearization {
-            value,
-            u,
-            gradient: [ux, uy, uz],
-        }
+        Linearization { value, u, gradient: [ux, uy, uz] }
     }
 }

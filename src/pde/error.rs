@@ -27,11 +27,7 @@ pub struct PdeError {
 
 impl PdeError {
     pub(super) fn new(text: &str, fault: Fault) -> PdeError {
-        PdeError {
-            problem: fault.problem,
-            text: text.to_owned(),
-            at: fault.at,
-        }
+        PdeError { problem: fault.problem, text: text.to_owned(), at: fault.at }
     }
 
     /// What is wrong, without the place.
@@ -72,10 +68,7 @@ pub(super) struct Fault {
 impl Fault {
     /// A problem at a byte of the text.
     pub fn at(at: usize, problem: Problem) -> Fault {
-        Fault {
-            at: Some(at),
-            problem,
-        }
+        Fault { at: Some(at), problem }
     }
 }
 
@@ -220,9 +213,7 @@ pub enum Problem {
 }
 
 fn place(text: &str, at: Option<usize>) -> String {
-    at.map_or(String::new(), |at| {
-        format!("character {}: ", characters_before(text, at) + 1)
-    })
+    at.map_or(String::new(), |at| format!("character {}: ", characters_before(text, at) + 1))
 }
 
 fn characters_before(text: &str, at: usize) -> usize {
@@ -234,9 +225,9 @@ fn plural(count: usize) -> &'static str {
 }
 
 fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or(String::new(), |name| {
-        format!(", did you mean `{}`?", name.trim_matches('`'))
-    })
+    nearest
+        .as_ref()
+        .map_or(String::new(), |name| format!(", did you mean `{}`?", name.trim_matches('`')))
 }
 
 #[cfg(test)]

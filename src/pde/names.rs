@@ -37,11 +37,7 @@ impl<'a> Names<'a> {
         for (i, parameter) in parameters.iter().enumerate() {
             check(parameter, &parameters[..i])?;
         }
-        Ok(Names {
-            parameters,
-            arrays,
-            used: Vec::new(),
-        })
+        Ok(Names { parameters, arrays, used: Vec::new() })
     }
 
     /// The meaning of a bare name: a coordinate, `u` or a derivative, else a
@@ -75,10 +71,7 @@ impl<'a> Names<'a> {
         let own = parameters.chain(self.arrays.iter().map(|array| as_written(array)));
         let own: Vec<String> = own.collect();
         let fixed = INPUTS.into_iter().chain(SECOND);
-        let fixed: Vec<String> = fixed
-            .chain(CONSTANTS.map(|c| c.0))
-            .map(Into::into)
-            .collect();
+        let fixed: Vec<String> = fixed.chain(CONSTANTS.map(|c| c.0)).map(Into::into).collect();
         Problem::UnknownName {
             name: name.to_owned(),
             nearest: nearest(name, own.iter().chain(&fixed)),
@@ -128,8 +121,7 @@ fn second(name: &str) -> Option<Leaf> {
 }
 
 fn number<'n>(mut from: impl Iterator<Item = (&'n str, f64)>, name: &str) -> Option<Leaf> {
-    from.find(|known| known.0 == name)
-        .map(|known| Leaf::Number(known.1))
+    from.find(|known| known.0 == name).map(|known| Leaf::Number(known.1))
 }
 
 /// An array's name as an equation must write it.

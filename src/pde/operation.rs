@@ -183,8 +183,7 @@ fn either(a: f64, b: f64, first: bool) -> f64 {
 }
 
 fn less(a: f64, b: f64) -> f64 {
-    a.partial_cmp(&b)
-        .map_or(f64::NAN, |order| (1.0 - f64::from(order as i8)) / 2.0)
+    a.partial_cmp(&b).map_or(f64::NAN, |order| (1.0 - f64::from(order as i8)) / 2.0)
 }
 
 fn gate(open: f64, a: f64) -> f64 {

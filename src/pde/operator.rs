@@ -70,10 +70,7 @@ impl Builder<'_> {
                 let a = &forms[a];
                 let value = self.plain(a, node)?;
                 let rest = self.graph.unary(operation, value);
-                Ok(Form {
-                    rest: Some(rest),
-                    ..*a
-                })
+                Ok(Form { rest: Some(rest), ..*a })
             }
             NodeKind::Binary(operation, a, b) => {
                 self.binary(operation, node, [a, b].map(|id: NodeId| &forms[id]))
@@ -117,11 +114,7 @@ impl Builder<'_> {
                 let right = self.plain(b, node)?;
                 let rest = Some(self.graph.binary(operation, left, right));
                 let dependent = a.dependent.or(b.dependent);
-                Ok(Form {
-                    rest,
-                    dependent,
-                    ..Form::default()
-                })
+                Ok(Form { rest, dependent, ..Form::default() })
             }
         }
     }
@@ -185,11 +178,8 @@ impl Builder<'_> {
     /// The name that stands at a place, as written but without backquotes.
     fn word(&self, at: usize) -> String {
         let found = tokens(&self.text[at..]).ok();
-        let first = found.and_then(|tokens| {
-            tokens
-                .first()
-                .map(|token| token.text.trim_matches('`').to_owned())
-        });
+        let first = found
+            .and_then(|tokens| tokens.first().map(|token| token.text.trim_matches('`').to_owned()));
         first.unwrap_or_default()
     }
 }

@@ -26,13 +26,7 @@ pub(super) fn parse(text: &str, names: &mut Names) -> Result<Tree, Fault> {
     if text.len() > LONGEST {
         return Err(Problem::TooLong(LONGEST).into());
     }
-    let mut parser = Parser {
-        tokens: tokens(text)?,
-        next: 0,
-        depth: 0,
-        nodes: Vec::new(),
-        names,
-    };
+    let mut parser = Parser { tokens: tokens(text)?, next: 0, depth: 0, nodes: Vec::new(), names };
     parser.equation()
 }
 
@@ -61,11 +55,7 @@ impl<'t> Parser<'t, '_, '_> {
             TokenKind::Equals => return Err(Fault::at(end.at, Problem::TwoEquals)),
             _ => return Err(no_operator(end)),
         }
-        Ok(Tree {
-            nodes: std::mem::take(&mut self.nodes),
-            left,
-            right,
-        })
+        Ok(Tree { nodes: std::mem::take(&mut self.nodes), left, right })
     }
 
     /// An expression whose operators all bind at least as tightly as `least`.

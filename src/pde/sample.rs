@@ -50,11 +50,7 @@ pub struct Batch {
 
 impl Batch {
     pub(super) fn new(arrays: usize) -> Batch {
-        Batch {
-            inputs: INPUTS.len() + arrays,
-            rows: Vec::new(),
-            len: 0,
-        }
+        Batch { inputs: INPUTS.len() + arrays, rows: Vec::new(), len: 0 }
     }
 
     /// Adds a sample.
@@ -102,12 +98,8 @@ mod tests {
 
     #[test]
     fn inputs_in_the_order_of_their_names() {
-        let sample = Sample {
-            x: [0.0, 1.0, 2.0],
-            u: 3.0,
-            gradient: [4.0, 5.0, 6.0],
-            arrays: &[7.0, 8.0],
-        };
+        let sample =
+            Sample { x: [0.0, 1.0, 2.0], u: 3.0, gradient: [4.0, 5.0, 6.0], arrays: &[7.0, 8.0] };
         for number in 0..9 {
             assert_eq!(sample.input(number), number as f64);
         }
@@ -118,10 +110,7 @@ mod tests {
     fn blocks_hold_64_samples() {
         let mut batch = Batch::new(1);
         for i in 0..LANES + 2 {
-            batch.push(&Sample {
-                u: i as f64,
-                ..Sample::default()
-            });
+            batch.push(&Sample { u: i as f64, ..Sample::default() });
         }
         let blocks: Vec<_> = batch.blocks().collect();
         assert_eq!(blocks.len(), 2);

@@ -36,12 +36,7 @@ impl<const K: usize> Tape<K> {
         let mut layout = Layout::new(graph, &results);
         let (constants, inputs) = (layout.constants(graph), layout.inputs(graph));
         let code = layout.code(graph);
-        Tape {
-            constants,
-            inputs,
-            code,
-            results: results.map(|id| layout.row[id.index()]),
-        }
+        Tape { constants, inputs, code, results: results.map(|id| layout.row[id.index()]) }
     }
 
     /// The inputs that the program reads.
@@ -74,9 +69,7 @@ impl<const K: usize> Tape<K> {
         out.reserve(batch.len());
         for (inputs, lanes) in batch.blocks() {
             let missing = [f64::NAN; LANES];
-            self.run(&mut rows, lanes, |number| {
-                inputs.get(number).copied().unwrap_or(missing)
-            });
+            self.run(&mut rows, lanes, |number| inputs.get(number).copied().unwrap_or(missing));
             let results = |lane: usize| self.results.map(|row| rows[row][lane]);
             out.extend((0..lanes).map(|lane| make(results(lane))));
         }
@@ -171,11 +164,7 @@ impl Layout {
                 operands(nodes[index]).for_each(|id| needed[id.index()] = true);
             }
         }
-        Layout {
-            row: vec![0; nodes.len()],
-            needed,
-            rows: 0,
-        }
+        Layout { row: vec![0; nodes.len()], needed, rows: 0 }
     }
 
     fn constants(&mut self, graph: &Graph) -> Vec<f64> {
@@ -272,10 +261,7 @@ mod tests {
         let mut batch = Batch::new(0);
         for i in 0..LANES + 3 {
             let x = [i as f64, 1.0, 0.0];
-            batch.push(&Sample {
-                x,
-                ..Sample::default()
-            });
+            batch.push(&Sample { x, ..Sample::default() });
         }
         let mut out = vec![[9.0; 2]];
         tape.evaluate_batch(&batch, &mut out, |results| results);

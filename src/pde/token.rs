@@ -42,11 +42,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Fault> {
         at = token.at + token.text.len();
         tokens.push(token);
     }
-    tokens.push(Token {
-        at: text.len(),
-        text: "",
-        kind: TokenKind::End,
-    });
+    tokens.push(Token { at: text.len(), text: "", kind: TokenKind::End });
     Ok(tokens)
 }
 
@@ -68,11 +64,7 @@ fn token_at(text: &str, from: usize) -> Result<Option<Token<'_>>, Fault> {
         _ if begins_name(first) => name(rest),
         _ => operator(rest, first, at)?,
     };
-    Ok(Some(Token {
-        at,
-        text: &rest[..length],
-        kind,
-    }))
+    Ok(Some(Token { at, text: &rest[..length], kind }))
 }
 
 fn operator(rest: &str, first: char, at: usize) -> Result<(TokenKind<'_>, usize), Fault> {
@@ -105,8 +97,7 @@ fn name(rest: &str) -> (TokenKind<'_>, usize) {
 }
 
 fn name_length(rest: &str) -> usize {
-    rest.find(|c: char| !(c.is_alphanumeric() || c == '_'))
-        .unwrap_or(rest.len())
+    rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len())
 }
 
 fn quoted(rest: &str, at: usize) -> Result<(TokenKind<'_>, usize), Fault> {
@@ -123,9 +114,7 @@ fn begins_number(rest: &str) -> bool {
 }
 
 fn number(rest: &str, at: usize) -> Result<(TokenKind<'_>, usize), Fault> {
-    let mantissa = rest
-        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
-        .unwrap_or(rest.len());
+    let mantissa = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
     let length = mantissa + exponent_length(&rest[mantissa..]);
     let text = &rest[..length];
     match text.parse::<f64>() {
@@ -185,12 +174,7 @@ mod tests {
 
     #[test]
     fn two_ways_to_write_a_power() {
-        let power = [
-            TokenKind::Name("x"),
-            TokenKind::Power,
-            TokenKind::Name("y"),
-            TokenKind::End,
-        ];
+        let power = [TokenKind::Name("x"), TokenKind::Power, TokenKind::Name("y"), TokenKind::End];
         assert_eq!(kinds("x**y"), power);
         assert_eq!(kinds("x ^ y"), power);
     }
@@ -202,11 +186,8 @@ mod tests {
 
     #[test]
     fn places_are_bytes_and_the_end_ignores_blanks() {
-        let places: Vec<_> = tokens(" ρ +`a b`  ")
-            .unwrap()
-            .iter()
-            .map(|t| (t.at, t.text))
-            .collect();
+        let places: Vec<_> =
+            tokens(" ρ +`a b`  ").unwrap().iter().map(|t| (t.at, t.text)).collect();
         assert_eq!(places, [(1, "ρ"), (4, "+"), (5, "`a b`"), (10, "")]);
     }
 

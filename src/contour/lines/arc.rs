@@ -8,7 +8,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::bernstein::{Barycentric, TriangleCubic};
+use crate::bernstein::{Barycentric, TriangleCubic, between};
 use crate::mesh::{TriangleFrame, Vector};
 
 /// The arc of a contour through a simple piece.
@@ -93,7 +93,7 @@ impl<'a> Arc<'a> {
         self.on_line(&at, direction, a, b).unwrap_or_else(|| {
             let middle = 0.5 * (a.ray + b.ray);
             let ray = self.ray(&at);
-            self.on_ray(if between(ray, a, b) { ray } else { middle })
+            self.on_ray(if is_between(ray, a, b) { ray } else { middle })
         })
     }
 
@@ -106,7 +106,7 @@ impl<'a> Arc<'a> {
         line.roots()
             .crossings()
             .map(|t| (1.0 - t) * from + t * to)
-            .filter(|&step| between(self.ray(&point(step)), a, b))
+            .filter(|&step| is_between(self.ray(&point(step)), a, b))
             .min_by(|p, q| p.abs().total_cmp(&q.abs()))
             .map(|step| self.node_at(point(step)))
     }
@@ -131,19 +131,17 @@ impl<'a> Arc<'a> {
     /// The point of the arc on the ray to the point `ray` of the base.
     fn on_ray(&self, ray: f64) -> Node {
         let apex = &self.corners[self.apex];
-        let (start, end) =
-            (&self.corners[(self.apex + 1) % 3], &self.corners[(self.apex + 2) % 3]);
-        let base = [0, 1, 2].map(|n| (1.0 - ray) * start[n] + ray * end[n]);
+        let (start, end) = (&self.corners[(self.apex + 1) % 3], &self.corners[(self.apex + 2) % 3]);
+        let base = between(start, end, ray);
         let line = self.cubic.restrict(apex, &base);
         let roots = line.roots();
         // certified, so there is one; where rounding hides it, it is at the base
         let t = roots.as_slice().first().map_or(1.0, |root| root.t);
-        let at = [0, 1, 2].map(|n| (1.0 - t) * apex[n] + t * base[n]);
-        Node { ray, ..self.node_at(at) }
+        Node { ray, ..self.node_at(between(apex, &base, t)) }
     }
 }
 
 /// Whether a ray lies strictly between those of two nodes.
-fn between(ray: f64, a: &Node, b: &Node) -> bool {
+fn is_between(ray: f64, a: &Node, b: &Node) -> bool {
     ray > a.ray.min(b.ray) && ray < a.ray.max(b.ray)
 }

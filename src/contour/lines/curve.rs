@@ -120,7 +120,8 @@ fn is_fine(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution) -> bool {
 /// Whether a curve is within `tolerance` of the contour, by its distances at
 /// three places: one alone would be deceived where the two curves cross.
 pub fn is_near(arc: &Arc, curve: &dyn Fn(f64) -> Vector, tolerance: f64) -> bool {
-    tolerance == f64::INFINITY || [0.25, 0.5, 0.75].iter().all(|&t| arc.distance(&curve(t)) <= tolerance)
+    tolerance == f64::INFINITY
+        || [0.25, 0.5, 0.75].iter().all(|&t| arc.distance(&curve(t)) <= tolerance)
 }
 
 /// Points of the arc along a Bézier piece of it, as many as the resolution asks

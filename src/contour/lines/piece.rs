@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::crossing::{Crossing, MAX_CROSSINGS, Owner, crossings};
-use crate::bernstein::{Barycentric, Sign, TriangleCubic};
+use crate::bernstein::{Barycentric, Sign, TriangleCubic, between};
 use crate::mesh::TriangleFrame;
 
 /// A crossing on the edge of a piece.
@@ -42,22 +42,15 @@ impl Piece {
         self.edges.iter().map(ArrayVec::len).sum()
     }
 
-    /// The crossings around the border, counter-clockwise from corner 1: number
-    /// of the edge, parameter on it, number of the crossing.
+    /// The crossings around the border, counter-clockwise from corner 1, each with
+    /// its edge. Before the first one the border is on the side of corner 1.
     pub fn border(&self) -> impl Iterator<Item = (usize, EdgeCrossing)> + '_ {
         (0..3).flat_map(|edge| self.edges[edge].iter().map(move |crossing| (edge, *crossing)))
     }
 
-    /// The side on which the border lies before the first crossing of
-    /// [`Piece::border`].
-    pub fn first_side(&self) -> Sign {
-        self.signs[1]
-    }
-
     /// The point of the cell at `t` on an edge.
     fn on_edge(&self, edge: usize, t: f64) -> Barycentric {
-        let (start, end) = (&self.corners[(edge + 1) % 3], &self.corners[(edge + 2) % 3]);
-        [0, 1, 2].map(|n| (1.0 - t) * start[n] + t * end[n])
+        between(&self.corners[(edge + 1) % 3], &self.corners[(edge + 2) % 3], t)
     }
 
     /// The side on which an edge lies at `t`: its start's, changed by each
@@ -114,10 +107,8 @@ impl Cell<'_> {
 
     /// The piece divided in four, by lines between the middles of its edges.
     pub fn quadrisect(&mut self, piece: &Piece) -> [Piece; 4] {
-        let middle = [0, 1, 2].map(|edge| Corner {
-            at: piece.on_edge(edge, 0.5),
-            sign: piece.side_at(edge, 0.5),
-        });
+        let middle = [0, 1, 2]
+            .map(|edge| Corner { at: piece.on_edge(edge, 0.5), sign: piece.side_at(edge, 0.5) });
         let corner = [0, 1, 2].map(|n| Corner { at: piece.corners[n], sign: piece.signs[n] });
         // inner[n] runs parallel to edge n, in its direction
         let inner = [0, 1, 2].map(|n| self.line(&middle[(n + 2) % 3], &middle[(n + 1) % 3]));
@@ -142,7 +133,7 @@ impl Cell<'_> {
         found
             .into_iter()
             .map(|t| {
-                let at = [0, 1, 2].map(|n| (1.0 - t) * from.at[n] + t * to.at[n]);
+                let at = between(&from.at, &to.at, t);
                 let (owner, position) = (self.next_owner(), self.frame.position(&at));
                 EdgeCrossing { t, crossing: self.add(Crossing { owner, at, position }) }
             })

@@ -40,11 +40,7 @@ pub fn flat_edges(cell: u32, points: [u32; 3], cubic: &TriangleCubic) -> Vec<Fla
 
 /// The whole cell as a piece. `whole` is its cubic less the level; `cell.cubic`
 /// is the same, divided by the edges that lie on the level.
-pub fn first_piece(
-    cell: &mut Cell,
-    whole: &TriangleCubic,
-    points: [u32; 3],
-) -> Piece {
+pub fn first_piece(cell: &mut Cell, whole: &TriangleCubic, points: [u32; 3]) -> Piece {
     let flat = whole.zero_sides();
     let mut edges = [0, 1, 2].map(|edge| {
         if flat[edge] {
@@ -127,9 +123,7 @@ fn corner_signs(
         signs[next] = flip(signs[apex], last);
         signs[last] = flip(signs[apex], next);
     } else if count >= 2 {
-        signs = [0, 1, 2].map(|corner| {
-            Sign::of(divided.edge((corner + 2) % 3).coefficients[0])
-        });
+        signs = [0, 1, 2].map(|corner| Sign::of(divided.edge((corner + 2) % 3).coefficients[0]));
         if let Some(edge) = (0..3).find(|&edge| !flat[edge]) {
             let (start, end) = ((edge + 1) % 3, (edge + 2) % 3);
             signs[start] = whole.edge(edge).roots().after_start();

@@ -20,6 +20,8 @@ pub struct Arc<'a> {
     /// From barycentric coordinates of the cell to those of the piece.
     to_piece: Matrix3<f64>,
     apex: usize,
+    /// Values no larger than this are zero, to rounding.
+    rounding: f64,
 }
 
 /// A point of an arc.
@@ -37,7 +39,8 @@ pub struct Node {
 
 impl<'a> Arc<'a> {
     /// The arc through the piece with the given corners, on which `cubic` (less
-    /// the level) crosses zero once on each ray from corner `apex`.
+    /// the level) crosses zero once on each ray from corner `apex`. Values up to
+    /// `rounding` count as zero.
     ///
     /// Nothing if the piece is so thin that its coordinates cannot be computed.
     pub fn new(
@@ -45,10 +48,12 @@ impl<'a> Arc<'a> {
         frame: &'a TriangleFrame,
         corners: [Barycentric; 3],
         apex: usize,
+        rounding: f64,
     ) -> Option<Self> {
         let from_piece = Matrix3::from_fn(|row, column| corners[column][row]);
         let to_piece = from_piece.try_inverse()?;
-        (!frame.is_degenerate()).then_some(Self { cubic, frame, corners, to_piece, apex })
+        let arc = Self { cubic, frame, corners, to_piece, apex, rounding };
+        (!frame.is_degenerate()).then_some(arc)
     }
 
     /// The triangle's frame.
@@ -82,7 +87,7 @@ impl<'a> Arc<'a> {
     pub fn distance(&self, position: &Vector) -> f64 {
         let at = self.frame.barycentric(position);
         let value = self.cubic.value(&at).abs();
-        if value == 0.0 { 0.0 } else { value / self.gradient(&at).norm() }
+        if value <= self.rounding { 0.0 } else { value / self.gradient(&at).norm() }
     }
 
     /// The point of the arc near `guess`, found along the line through `guess` in

@@ -51,7 +51,7 @@ pub struct Drawing {
 }
 
 /// Halvings of an arc after which its points are as close as they get.
-const MAX_DEPTH: u32 = 20;
+const MAX_DEPTH: u32 = 16;
 
 /// Draws the arc between two of its points into `drawing`.
 pub fn draw(

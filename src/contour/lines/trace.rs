@@ -140,7 +140,7 @@ fn draw_arc(tracing: &Tracing, cell: &Cell, piece: &Piece, apex: usize, traces: 
     };
     let crossing = |on_border: (usize, EdgeCrossing)| cell.crossings[on_border.1.crossing as usize];
     let mut drawing = std::mem::take(&mut traces.drawing);
-    if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece.corners, apex) {
+    if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece.corners, apex, tracing.rounding) {
         let node = |on_border: (usize, EdgeCrossing)| {
             let crossing = crossing(on_border);
             arc.node(crossing.at, crossing.position, ray(apex, on_border))

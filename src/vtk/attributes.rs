@@ -1,0 +1,170 @@
+//! The arrays of points, cells or the field, and which of them are active.
+
+use super::data_array::DataArray;
+
+/// The roles an array of points or cells can be given in VTK.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // each is VTK's own word for the role
+pub enum AttributeKind {
+    Scalars,
+    Vectors,
+    Normals,
+    TCoords,
+    Tensors,
+    GlobalIds,
+    PedigreeIds,
+    EdgeFlag,
+    Tangents,
+    RationalWeights,
+    HigherOrderDegrees,
+    ProcessIds,
+}
+
+impl AttributeKind {
+    /// Every role with its name in a file, in VTK's order.
+    pub(super) const NAMES: [(Self, &'static str); 12] = [
+        (Self::Scalars, "Scalars"),
+        (Self::Vectors, "Vectors"),
+        (Self::Normals, "Normals"),
+        (Self::TCoords, "TCoords"),
+        (Self::Tensors, "Tensors"),
+        (Self::GlobalIds, "GlobalIds"),
+        (Self::PedigreeIds, "PedigreeIds"),
+        (Self::EdgeFlag, "EdgeFlag"),
+        (Self::Tangents, "Tangents"),
+        (Self::RationalWeights, "RationalWeights"),
+        (Self::HigherOrderDegrees, "HigherOrderDegrees"),
+        (Self::ProcessIds, "ProcessIds"),
+    ];
+
+    /// The name in a file, such as `Scalars`.
+    pub fn name(self) -> &'static str {
+        let found = Self::NAMES.iter().find(|(kind, _)| *kind == self);
+        found.map_or("", |(_, name)| name)
+    }
+}
+
+/// An ordered set of arrays, and the names of the active ones.
+///
+/// Used for point data, cell data and (without active ones) field data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes {
+    arrays: Vec<DataArray>,
+    active: Vec<(AttributeKind, String)>,
+}
+
+impl Attributes {
+    /// A set without arrays.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Appends an array; one of the same name is replaced where it stands.
+    pub fn push(&mut self, array: DataArray) {
+        match self.arrays.iter_mut().find(|old| old.name == array.name) {
+            Some(old) => *old = array,
+            None => self.arrays.push(array),
+        }
+    }
+
+    /// The array of that name.
+    pub fn get(&self, name: &str) -> Option<&DataArray> {
+        self.arrays.iter().find(|array| array.name == name)
+    }
+
+    /// The arrays in order.
+    pub fn iter(&self) -> std::slice::Iter<'_, DataArray> {
+        self.arrays.iter()
+    }
+
+    /// The number of arrays.
+    pub fn len(&self) -> usize {
+        self.arrays.len()
+    }
+
+    /// Whether there are no arrays.
+    pub fn is_empty(&self) -> bool {
+        self.arrays.is_empty()
+    }
+
+    /// Gives the array of that name a role (an array may have several, a role one array).
+    /// Returns whether there is such an array; nothing changes where there is not.
+    pub fn set_active(&mut self, kind: AttributeKind, name: &str) -> bool {
+        if self.get(name).is_none() {
+            return false;
+        }
+        self.active.retain(|(old, _)| *old != kind);
+        self.active.push((kind, name.to_owned()));
+        true
+    }
+
+    /// The array with that role.
+    pub fn active(&self, kind: AttributeKind) -> Option<&DataArray> {
+        let (_, name) = self.active.iter().find(|(active, _)| *active == kind)?;
+        self.get(name)
+    }
+
+    /// The roles given, with the array's name, in the order they were given.
+    pub fn active_names(&self) -> &[(AttributeKind, String)] {
+        &self.active
+    }
+
+    /// A set of arrays whose names are known to differ.
+    pub(super) fn from_distinct(
+        arrays: Vec<DataArray>,
+        active: Vec<(AttributeKind, String)>,
+    ) -> Self {
+        Self { arrays, active }
+    }
+
+    /// The arrays, to be changed in place.
+    pub(super) fn iter_mut(&mut self) -> std::slice::IterMut<'_, DataArray> {
+        self.arrays.iter_mut()
+    }
+}
+
+impl<'a> IntoIterator for &'a Attributes {
+    type Item = &'a DataArray;
+    type IntoIter = std::slice::Iter<'a, DataArray>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl FromIterator<DataArray> for Attributes {
+    fn from_iter<I: IntoIterator<Item = DataArray>>(arrays: I) -> Self {
+        let mut set = Self::new();
+        arrays.into_iter().for_each(|array| set.push(array));
+        set
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set() -> Attributes {
+        let arrays = ["a", "b"].map(|name| DataArray::new(name, 1, vec![1.0f64]));
+        arrays.into_iter().collect()
+    }
+
+    #[test]
+    fn order_is_kept_and_names_are_unique() {
+        let mut set = set();
+        set.push(DataArray::new("a", 1, vec![7i8]));
+        let names: Vec<_> = set.iter().map(|array| array.name.as_str()).collect();
+        assert_eq!(names, ["a", "b"]);
+        assert_eq!(set.get("a").unwrap().values, vec![7i8].into());
+    }
+
+    #[test]
+    fn a_role_belongs_to_one_existing_array() {
+        let mut set = set();
+        assert!(set.set_active(AttributeKind::Scalars, "a"));
+        assert!(set.set_active(AttributeKind::Scalars, "b"));
+        assert!(!set.set_active(AttributeKind::Vectors, "c"));
+        assert_eq!(set.active(AttributeKind::Scalars).unwrap().name, "b");
+        assert_eq!(set.active_names().len(), 1);
+    }
+}

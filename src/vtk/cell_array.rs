@@ -1,0 +1,180 @@
+//! Cells as lists of indices, one after the other.
+
+use super::error::ArrayError;
+
+/// Lists of indices, stored one after the other: the points of cells, the points of
+/// faces, or the faces of polyhedra.
+///
+/// List `i` is `connectivity[offsets[i]..offsets[i + 1]]`. The offsets begin with 0,
+/// never fall, and end at the length of the connectivity: every value of this type keeps
+/// to that.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CellArray {
+    offsets: Vec<i64>,
+    connectivity: Vec<i64>,
+}
+
+impl Default for CellArray {
+    fn default() -> Self {
+        Self {
+            offsets: vec![0],
+            connectivity: Vec::new(),
+        }
+    }
+}
+
+impl CellArray {
+    /// No lists.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes ready offsets (one more than there are lists) and connectivity.
+    ///
+    /// # Errors
+    /// The offsets do not begin with 0, fall, or do not end at the length of the
+    /// connectivity.
+    pub fn from_parts(offsets: Vec<i64>, connectivity: Vec<i64>) -> Result<Self, ArrayError> {
+        if offsets.first() != Some(&0) {
+            return Err(ArrayError::FirstOffset);
+        }
+        check_rising(&offsets)?;
+        let last = offsets.last().copied().unwrap_or(0);
+        if usize::try_from(last) != Ok(connectivity.len()) {
+            return Err(ArrayError::Count {
+                found: connectivity.len(),
+                expected: usize::try_from(last).unwrap_or(usize::MAX),
+            });
+        }
+        Ok(Self {
+            offsets,
+            connectivity,
+        })
+    }
+
+    /// The number of lists.
+    pub fn len(&self) -> usize {
+        self.offsets.len().saturating_sub(1)
+    }
+
+    /// Whether there are no lists.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// List `index`.
+    pub fn get(&self, index: usize) -> Option<&[i64]> {
+        let start = usize::try_from(*self.offsets.get(index)?).ok()?;
+        let end = usize::try_from(*self.offsets.get(index.checked_add(1)?)?).ok()?;
+        self.connectivity.get(start..end)
+    }
+
+    /// The lists in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[i64]> {
+        (0..self.len()).map(|index| self.get(index).unwrap_or_default())
+    }
+
+    /// Appends a list.
+    pub fn push(&mut self, list: &[i64]) {
+        self.connectivity.extend_from_slice(list);
+        // A vector never holds more than i64::MAX values.
+        self.offsets.push(self.connectivity.len() as i64);
+    }
+
+    /// Where each list begins, and the end of the last: one more than there are lists.
+    pub fn offsets(&self) -> &[i64] {
+        &self.offsets
+    }
+
+    /// The lists' indices, one list after the other.
+    pub fn connectivity(&self) -> &[i64] {
+        &self.connectivity
+    }
+
+    /// Refuses indices outside `0..count`.
+    ///
+    /// # Errors
+    /// Names the first index outside and its list.
+    pub fn check_indices(&self, count: usize) -> Result<(), ArrayError> {
+        match first_outside(&self.connectivity, count) {
+            None => Ok(()),
+            Some(at) => Err(ArrayError::IndexOutOfRange {
+                cell: self.offsets.partition_point(|o| *o <= at as i64) - 1,
+                index: self.connectivity.get(at).copied().unwrap_or(0),
+                count,
+            }),
+        }
+    }
+}
+
+/// Refuses offsets that fall.
+pub(super) fn check_rising(offsets: &[i64]) -> Result<(), ArrayError> {
+    match offsets.windows(2).position(|pair| pair[0] > pair[1]) {
+        None => Ok(()),
+        Some(cell) => Err(ArrayError::FallingOffsets { cell }),
+    }
+}
+
+/// The place of the first index outside `0..count`.
+pub(super) fn first_outside(indices: &[i64], count: usize) -> Option<usize> {
+    // As unsigned numbers, negative indices are beyond every count.
+    indices
+        .iter()
+        .position(|index| *index as u64 >= count as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_come_back() {
+        let mut cells = CellArray::new();
+        cells.push(&[0, 1, 2]);
+        cells.push(&[]);
+        cells.push(&[2, 3]);
+        assert_eq!(cells.len(), 3);
+        assert_eq!(cells.get(2), Some(&[2i64, 3][..]));
+        assert_eq!(cells.get(3), None);
+        assert_eq!(
+            cells.iter().map(<[i64]>::len).collect::<Vec<_>>(),
+            [3, 0, 2]
+        );
+        let again = CellArray::from_parts(vec![0, 3, 3, 5], vec![0, 1, 2, 2, 3]);
+        assert_eq!(again.unwrap(), cells);
+    }
+
+    #[test]
+    fn bad_offsets_are_refused() {
+        let refuse =
+            |offsets: &[i64]| CellArray::from_parts(offsets.to_vec(), vec![0, 1]).unwrap_err();
+        assert!(matches!(refuse(&[]), ArrayError::FirstOffset));
+        assert!(matches!(refuse(&[1, 2]), ArrayError::FirstOffset));
+        assert!(matches!(
+            refuse(&[0, 2, 1]),
+            ArrayError::FallingOffsets { cell: 1 }
+        ));
+        assert!(matches!(
+            refuse(&[0, 3]),
+            ArrayError::Count {
+                found: 2,
+                expected: 3
+            }
+        ));
+    }
+
+    #[test]
+    fn indices_outside_are_named_with_their_cell() {
+        let cells = CellArray::from_parts(vec![0, 2, 2, 4], vec![0, 1, 1, -1]).unwrap();
+        let error = cells.check_indices(2).unwrap_err();
+        assert!(matches!(
+            error,
+            ArrayError::IndexOutOfRange {
+                cell: 2,
+                index: -1,
+                count: 2
+            }
+        ));
+        assert!(CellArray::new().check_indices(0).is_ok());
+    }
+}

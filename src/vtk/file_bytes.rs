@@ -1,0 +1,71 @@
+//! The bytes of a file: mapped from the disk, or given in memory.
+
+use memmap2::Mmap;
+use std::fs::File;
+use std::io;
+use std::ops::Deref;
+use std::path::Path;
+
+/// The bytes of a file.
+#[derive(Debug)]
+pub(super) enum FileBytes {
+    Mapped(Mmap),
+    Owned(Vec<u8>),
+}
+
+impl FileBytes {
+    /// Maps a file; devices and pipes, which cannot be mapped, are read.
+    pub(super) fn open(path: &Path) -> io::Result<Self> {
+        let mut file = File::open(path)?;
+        let metadata = file.metadata()?;
+        if metadata.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        if !metadata.is_file() {
+            let mut bytes = Vec::new();
+            io::Read::read_to_end(&mut file, &mut bytes)?;
+            return Ok(Self::Owned(bytes));
+        }
+        map(&file).map(Self::Mapped)
+    }
+}
+
+#[allow(
+    unsafe_code,
+    reason = "mapping reads a large file at the speed of memory and leaves out the arrays \
+              nobody asks for; it is sound while no other program changes the file, which \
+              every reader of files has to rely on"
+)]
+fn map(file: &File) -> io::Result<Mmap> {
+    // SAFETY: the map is read only and private to this process; the bytes are checked as
+    // any data from outside are, and never used as anything but bytes.
+    unsafe { Mmap::map(file) }
+}
+
+impl Deref for FileBytes {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Mapped(map) => map,
+            Self::Owned(bytes) => bytes,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_folders_and_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        assert!(FileBytes::open(&path).is_err());
+        std::fs::write(&path, b"").unwrap();
+        assert!(FileBytes::open(&path).unwrap().is_empty());
+        std::fs::write(&path, b"abc").unwrap();
+        assert_eq!(&*FileBytes::open(&path).unwrap(), b"abc");
+        assert!(FileBytes::open(folder.path()).is_err());
+    }
+}

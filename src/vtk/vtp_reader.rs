@@ -1,0 +1,141 @@
+//! Reading polygonal data (`.vtp`).
+
+use super::attributes::Attributes;
+use super::cell_array::CellArray;
+use super::cell_reader::{CELLS, ListSource, read_lists};
+use super::description::{Description, Sections};
+use super::error::VtkError;
+use super::file_bytes::FileBytes;
+use super::piece::{Piece, PieceCounts};
+use super::poly_data::PolyData;
+use super::reading::{Loaded, Reading};
+use super::selection::Selection;
+use super::xml_file::{Budget, XmlFile};
+use std::ops::Range;
+use std::path::Path;
+
+/// An open `.vtp` file. Nothing is decoded before it is asked for.
+///
+/// The file is mapped into memory: it must not be changed or shortened by another program
+/// while this value lives.
+#[derive(Debug)]
+pub struct VtpFile {
+    file: XmlFile,
+}
+
+/// The type of data set, as VTK calls it.
+const KIND: &str = "PolyData";
+
+/// One of the four kinds of cells: its section, and how many a piece has.
+type CellKind = (&'static str, fn(&PieceCounts) -> usize);
+
+const VERTS: CellKind = ("Verts", |counts| counts.verts);
+const LINES: CellKind = ("Lines", |counts| counts.lines);
+const POLYS: CellKind = ("Polys", |counts| counts.polys);
+const STRIPS: CellKind = ("Strips", |counts| counts.strips);
+
+impl VtpFile {
+    /// Maps the file and parses its head.
+    ///
+    /// # Errors
+    /// The file cannot be read, is of another kind, or its XML is broken or cut.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, VtkError> {
+        let file = XmlFile::open(path.as_ref(), KIND)?;
+        Ok(Self { file })
+    }
+
+    /// Takes a file that is in memory. `name` stands for its path in messages.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn from_bytes(name: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, VtkError> {
+        let file = XmlFile::parse(name.as_ref(), FileBytes::Owned(bytes), KIND)?;
+        Ok(Self { file })
+    }
+
+    /// What is in the file, from its head alone.
+    ///
+    /// # Errors
+    /// A piece does not say how many points it has.
+    pub fn description(&self) -> Result<Description, VtkError> {
+        let pieces = Piece::all(&self.file, Piece::of_poly_data)?;
+        let sections = Sections::join(self.file.data_set()?, &pieces);
+        Ok(sections.describe(self.file.version(), &pieces))
+    }
+
+    /// Decodes points, cells, field data and the selected arrays, and joins all pieces.
+    ///
+    /// # Errors
+    /// A selected array is missing, or differs between the pieces; or any of the data is
+    /// cut, corrupt, or contradicts the rest.
+    pub fn read(&self, selection: &Selection) -> Result<Loaded<PolyData>, VtkError> {
+        let file = &self.file;
+        let pieces = Piece::all(file, Piece::of_poly_data)?;
+        let mut budget = file.budget();
+        let reading = Reading::open(file, &pieces, selection, &mut budget)?;
+        let mut cells = |kind| read_cells(file, &pieces, kind, &mut budget);
+        let [verts, lines, polys, strips] =
+            [cells(VERTS)?, cells(LINES)?, cells(POLYS)?, cells(STRIPS)?];
+        let warnings = reading.warnings.clone();
+        let mut decoded = reading.decode()?;
+        sort_cell_data(&mut decoded.cell_data, &pieces);
+        Ok(Loaded {
+            data: PolyData {
+                points: decoded.points,
+                verts,
+                lines,
+                polys,
+                strips,
+                point_data: decoded.point_data,
+                cell_data: decoded.cell_data,
+                field_data: decoded.field_data,
+            },
+            warnings,
+        })
+    }
+}
+
+fn read_cells(
+    file: &XmlFile,
+    pieces: &[Piece<'_>],
+    (section, count): CellKind,
+    budget: &mut Budget,
+) -> Result<CellArray, VtkError> {
+    let sources = pieces.iter().enumerate().map(|(index, piece)| ListSource {
+        section: piece.node.child(section),
+        label: Piece::label(section, index),
+        count: Some(count(&piece.counts)),
+        bound: piece.counts.points,
+    });
+    read_lists(file, CELLS, &sources.collect::<Vec<_>>(), budget)
+}
+
+/// Brings cell data from the order of the pieces to that of the joined data: all verts,
+/// then all lines, polys and strips.
+fn sort_cell_data(cell_data: &mut Attributes, pieces: &[Piece<'_>]) {
+    let order = joined_order(pieces);
+    if order.windows(2).all(|pair| pair[0].end == pair[1].start) {
+        return;
+    }
+    for array in cell_data.iter_mut() {
+        let values =
+            |cells: &Range<usize>| cells.start * array.components..cells.end * array.components;
+        let ranges: Vec<_> = order.iter().map(values).collect();
+        array.values = array.values.gather(&ranges);
+    }
+}
+
+/// The cells of the joined data, as ranges in the order of the pieces.
+fn joined_order(pieces: &[Piece<'_>]) -> Vec<Range<usize>> {
+    let mut by_kind: [Vec<Range<usize>>; 4] = Default::default();
+    let mut start = 0;
+    for piece in pieces {
+        for (ranges, (_, count)) in by_kind.iter_mut().zip([VERTS, LINES, POLYS, STRIPS]) {
+            let end = start + count(&piece.counts);
+            ranges.push(start..end);
+            start = end;
+        }
+    }
+    let filled = |range: &Range<usize>| !range.is_empty();
+    by_kind.into_iter().flatten().filter(filled).collect()
+}

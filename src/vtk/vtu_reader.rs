@@ -1,0 +1,118 @@
+//! Reading unstructured grids (`.vtu`).
+
+use super::cell_reader::{CELLS, Integers, ListSource, read_lists};
+use super::description::{Description, Sections};
+use super::error::VtkError;
+use super::file_bytes::FileBytes;
+use super::piece::Piece;
+use super::polyhedra_reader::read_polyhedra;
+use super::reading::{Loaded, Reading};
+use super::selection::Selection;
+use super::unstructured_grid::UnstructuredGrid;
+use super::xml_file::{Budget, XmlFile};
+use std::path::Path;
+
+/// An open `.vtu` file. Nothing is decoded before it is asked for.
+///
+/// The file is mapped into memory: it must not be changed or shortened by another program
+/// while this value lives.
+#[derive(Debug)]
+pub struct VtuFile {
+    file: XmlFile,
+}
+
+/// The type of data set, as VTK calls it.
+const KIND: &str = "UnstructuredGrid";
+
+impl VtuFile {
+    /// Maps the file and parses its head.
+    ///
+    /// # Errors
+    /// The file cannot be read, is of another kind, or its XML is broken or cut.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, VtkError> {
+        let file = XmlFile::open(path.as_ref(), KIND)?;
+        Ok(Self { file })
+    }
+
+    /// Takes a file that is in memory. `name` stands for its path in messages.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn from_bytes(name: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, VtkError> {
+        let file = XmlFile::parse(name.as_ref(), FileBytes::Owned(bytes), KIND)?;
+        Ok(Self { file })
+    }
+
+    /// What is in the file, from its head alone.
+    ///
+    /// # Errors
+    /// A piece does not say how many points and cells it has.
+    pub fn description(&self) -> Result<Description, VtkError> {
+        let pieces = Piece::all(&self.file, Piece::of_grid)?;
+        let sections = Sections::join(self.file.data_set()?, &pieces);
+        Ok(sections.describe(self.file.version(), &pieces))
+    }
+
+    /// Decodes points, cells, field data and the selected arrays, and joins all pieces.
+    ///
+    /// # Errors
+    /// A selected array is missing, or differs between the pieces; or any of the data is
+    /// cut, corrupt, or contradicts the rest.
+    pub fn read(&self, selection: &Selection) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+        let file = &self.file;
+        let pieces = Piece::all(file, Piece::of_grid)?;
+        let mut budget = file.budget();
+        let reading = Reading::open(file, &pieces, selection, &mut budget)?;
+        let types = read_types(file, &pieces, &mut budget)?;
+        let cells = read_lists(file, CELLS, &cell_sources(&pieces), &mut budget)?;
+        let polyhedra = read_polyhedra(file, &pieces, &mut budget)?;
+        let warnings = reading.warnings.clone();
+        let decoded = reading.decode()?;
+        Ok(Loaded {
+            data: UnstructuredGrid {
+                points: decoded.points,
+                cells,
+                types,
+                polyhedra,
+                point_data: decoded.point_data,
+                cell_data: decoded.cell_data,
+                field_data: decoded.field_data,
+            },
+            warnings,
+        })
+    }
+}
+
+fn cell_sources<'a>(pieces: &[Piece<'a>]) -> Vec<ListSource<'a>> {
+    let source = |(index, piece): (usize, &Piece<'a>)| ListSource {
+        section: piece.node.child("Cells"),
+        label: Piece::label("Cells", index),
+        count: Some(piece.counts.cells),
+        bound: piece.counts.points,
+    };
+    pieces.iter().enumerate().map(source).collect()
+}
+
+/// Reads the cell types of all pieces.
+fn read_types(
+    file: &XmlFile,
+    pieces: &[Piece<'_>],
+    budget: &mut Budget,
+) -> Result<Vec<u8>, VtkError> {
+    let mut types = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        let count = piece.counts.cells;
+        if count == 0 {
+            continue;
+        }
+        let section = piece.node.child("Cells");
+        let read = Integers::open(file, section, "types", Some(count), budget).and_then(|part| {
+            let start = types.len();
+            types.resize(start + part.count(), 0u8);
+            part.decode(types.get_mut(start..).unwrap_or_default())
+        });
+        let label = Piece::label("Cells", index);
+        read.map_err(|problem| file.array_error(&label, "types", problem))?;
+    }
+    Ok(types)
+}

@@ -1,0 +1,49 @@
+//! How to write a file.
+
+/// How the values of arrays are written down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// Bytes as they are, appended: the fastest.
+    #[default]
+    Raw,
+    /// Compressed with zlib, appended.
+    Zlib,
+    /// Compressed with LZ4, appended: faster than zlib, larger files.
+    Lz4,
+    /// Compressed with LZMA, appended: slower than zlib, smaller files.
+    Lzma,
+    /// Base64 inside the XML: for tools that want plain XML.
+    Base64,
+    /// Numbers as text, each exactly as it is: for people.
+    Ascii,
+}
+
+/// The precision of the floats in a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Floats {
+    /// As they are given.
+    #[default]
+    AsGiven,
+    /// `Float64` arrays become `Float32`.
+    Single,
+    /// `Float32` arrays become `Float64`.
+    Double,
+}
+
+/// How to write a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WriteOptions {
+    /// How values are written down.
+    pub encoding: Encoding,
+    /// The precision of floats, those of points included.
+    pub floats: Floats,
+}
+
+impl From<Encoding> for WriteOptions {
+    fn from(encoding: Encoding) -> Self {
+        Self {
+            encoding,
+            floats: Floats::default(),
+        }
+    }
+}

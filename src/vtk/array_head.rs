@@ -53,10 +53,7 @@ fn count(node: Node<'_>, attribute: &'static str) -> Result<Option<usize>, Array
     };
     match value.trim().parse() {
         Ok(count) => Ok(Some(count)),
-        Err(_) => Err(ArrayError::BadAttribute {
-            attribute,
-            value: value.into_owned(),
-        }),
+        Err(_) => Err(ArrayError::BadAttribute { attribute, value: value.into_owned() }),
     }
 }
 
@@ -104,14 +101,11 @@ mod tests {
 
     #[test]
     fn defaults() {
-        with_head(
-            "<DataArray type='Float32' NumberOfComponents='0'/>",
-            |head| {
-                assert_eq!(head.name, "");
-                assert_eq!(head.shape, Ok((ArrayType::F32, 1)));
-                assert_eq!(head.tuples(), Ok(None));
-            },
-        );
+        with_head("<DataArray type='Float32' NumberOfComponents='0'/>", |head| {
+            assert_eq!(head.name, "");
+            assert_eq!(head.shape, Ok((ArrayType::F32, 1)));
+            assert_eq!(head.tuples(), Ok(None));
+        });
     }
 
     #[test]

@@ -21,11 +21,7 @@ impl<'a> AsciiText<'a> {
     /// Counts the numbers of `text`.
     pub(super) fn new(text: &'a [u8], offset: usize) -> Self {
         let count = |range: Range<usize>| (range.clone(), count_tokens(&text[range]));
-        Self {
-            text,
-            offset,
-            chunks: split(text).into_par_iter().map(count).collect(),
-        }
+        Self { text, offset, chunks: split(text).into_par_iter().map(count).collect() }
     }
 
     /// How many numbers there are.
@@ -42,9 +38,7 @@ impl<'a> AsciiText<'a> {
             dest = rest;
         }
         // Of several bad numbers, the first is reported, whichever thread is faster.
-        let results = jobs
-            .into_par_iter()
-            .map(|(range, part)| self.parse_chunk(range, part));
+        let results = jobs.into_par_iter().map(|(range, part)| self.parse_chunk(range, part));
         results.collect::<Vec<_>>().into_iter().collect()
     }
 
@@ -112,10 +106,7 @@ mod tests {
     #[test]
     fn numbers_between_any_white_space() {
         assert_eq!(read::<i32>("\n 1 -2\t3\r\n"), Ok(vec![1, -2, 3]));
-        assert_eq!(
-            read::<f32>("1e-3 .5 inf"),
-            Ok(vec![1e-3, 0.5, f32::INFINITY])
-        );
+        assert_eq!(read::<f32>("1e-3 .5 inf"), Ok(vec![1e-3, 0.5, f32::INFINITY]));
         assert_eq!(read::<u8>("   "), Ok(vec![]));
         assert_eq!(read::<u8>(""), Ok(vec![]));
     }
@@ -123,10 +114,7 @@ mod tests {
     #[test]
     fn bad_numbers_are_named_with_their_place() {
         let error = read::<u8>("1 2  x3 y").unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "'x3' at byte 1005 is not a number of type UInt8"
-        );
+        assert_eq!(error.to_string(), "'x3' at byte 1005 is not a number of type UInt8");
     }
 
     #[test]

@@ -48,10 +48,7 @@ impl AtomicFile {
     pub fn create(path: impl AsRef<Path>) -> Result<Self, VtkError> {
         let path = path.as_ref();
         let target = open(path).map_err(|error| VtkError::Write(named(path, error)))?;
-        Ok(Self {
-            path: path.to_owned(),
-            out: BufWriter::with_capacity(1 << 16, target),
-        })
+        Ok(Self { path: path.to_owned(), out: BufWriter::with_capacity(1 << 16, target) })
     }
 
     /// The name the file will have.
@@ -101,17 +98,12 @@ fn open(path: &Path) -> io::Result<Target> {
     match &old {
         Some(old) if old.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
         Some(old) if !old.is_file() => {
-            return fs::OpenOptions::new()
-                .write(true)
-                .open(path)
-                .map(Target::Direct);
+            return fs::OpenOptions::new().write(true).open(path).map(Target::Direct);
         }
         _ => {}
     }
     let name = real_name(path);
-    let folder = name
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
     let mut prefix = std::ffi::OsString::from(".");
     prefix.push(name.file_name().unwrap_or_default());
     let mut builder = Builder::new();
@@ -158,9 +150,7 @@ mod tests {
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
         let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
-        entries
-            .map(|entry| name(entry).into_string().unwrap())
-            .collect()
+        entries.map(|entry| name(entry).into_string().unwrap()).collect()
     }
 
     #[test]

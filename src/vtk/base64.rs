@@ -38,9 +38,7 @@ pub(super) fn take(bytes: &[u8], count: usize) -> Option<(Cow<'_, [u8]>, usize)>
 
 /// Decodes a short run. `offset` is its place in the file, for the message.
 pub(super) fn decode(chars: &[u8], offset: usize) -> Result<Vec<u8>, ArrayError> {
-    STANDARD
-        .decode_to_vec(chars)
-        .map_err(|_| ArrayError::BadBase64 { offset })
+    STANDARD.decode_to_vec(chars).map_err(|_| ArrayError::BadBase64 { offset })
 }
 
 /// Decodes a whole run without its first `skip` bytes into `dest`, which it fills.
@@ -75,10 +73,7 @@ fn decode_exactly(chars: &[u8], dest: &mut [u8], offset: usize) -> Result<(), Ar
     if STANDARD.decoded_length(chars).ok() != Some(dest.len()) {
         return Err(bad);
     }
-    STANDARD
-        .decode(chars, Out::from_slice(dest))
-        .map_err(|_| bad)
-        .map(|_| ())
+    STANDARD.decode(chars, Out::from_slice(dest)).map_err(|_| bad).map(|_| ())
 }
 
 /// Writes everything that is written to it as one base64 run.
@@ -92,11 +87,7 @@ pub(super) struct Encoder<W: Write> {
 impl<W: Write> Encoder<W> {
     /// Begins a run.
     pub(super) fn new(out: W) -> Self {
-        Self {
-            out,
-            pending: Vec::with_capacity(3),
-            text: Vec::new(),
-        }
+        Self { out, pending: Vec::with_capacity(3), text: Vec::new() }
     }
 
     /// Ends the run, padded.

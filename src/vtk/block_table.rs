@@ -30,19 +30,15 @@ impl BlockTable {
         if blocks == 0 {
             return Ok((Self::empty(), coded));
         }
-        let too_large = || ArrayError::TooLarge {
-            offset: coded.offset,
-            promised: format!("{blocks} blocks"),
-        };
+        let too_large =
+            || ArrayError::TooLarge { offset: coded.offset, promised: format!("{blocks} blocks") };
         let blocks = usize::try_from(blocks).map_err(|_| too_large())?;
         let words = blocks.checked_add(3).ok_or_else(too_large)?;
         let header = words.checked_mul(word.size()).ok_or_else(too_large)?;
         coded.check_room(header).map_err(|_| too_large())?;
         let bytes = coded.peek(header)?;
         let words = word.words(&bytes, order).skip(1);
-        let bad = ArrayError::BlockSizes {
-            offset: coded.offset,
-        };
+        let bad = ArrayError::BlockSizes { offset: coded.offset };
         let table = Self::from_words(words, blocks).ok_or(bad)?;
         let payload = coded.after(header)?;
         table.check(&payload, compressor)?;
@@ -50,11 +46,7 @@ impl BlockTable {
     }
 
     fn empty() -> Self {
-        Self {
-            block_size: 1,
-            total: 0,
-            ends: Vec::new(),
-        }
+        Self { block_size: 1, total: 0, ends: Vec::new() }
     }
 
     /// From the words after the first; `None` where they contradict each other.
@@ -73,11 +65,7 @@ impl BlockTable {
             ends.push(end);
         }
         let full = ends.len().checked_sub(1)?.checked_mul(block_size)?;
-        Some(Self {
-            block_size,
-            total: full.checked_add(last)?,
-            ends,
-        })
+        Some(Self { block_size, total: full.checked_add(last)?, ends })
     }
 
     /// Compressed bytes of all blocks together.
@@ -113,11 +101,7 @@ mod tests {
     fn read(words: &[u32], payload: usize) -> Result<BlockTable, ArrayError> {
         let mut bytes: Vec<u8> = words.iter().flat_map(|w| w.to_be_bytes()).collect();
         bytes.resize(bytes.len() + payload, 0);
-        let coded = Coded {
-            bytes: &bytes,
-            offset: 0,
-            coding: Coding::Raw,
-        };
+        let coded = Coded { bytes: &bytes, offset: 0, coding: Coding::Raw };
         let compressor = Compressor::Zlib;
         BlockTable::read(coded, HeaderWord::U32, ByteOrder::Big, compressor).map(|(table, _)| table)
     }
@@ -145,23 +129,11 @@ mod tests {
     #[test]
     fn contradictions_are_refused() {
         let bad = |words: &[u32]| read(words, 40).unwrap_err();
-        assert!(matches!(
-            bad(&[1, 100, 101, 10]),
-            ArrayError::BlockSizes { .. }
-        ));
+        assert!(matches!(bad(&[1, 100, 101, 10]), ArrayError::BlockSizes { .. }));
         assert!(matches!(bad(&[1, 0, 0, 10]), ArrayError::BlockSizes { .. }));
-        assert!(matches!(
-            bad(&[u32::MAX, 8, 0]),
-            ArrayError::TooLarge { .. }
-        ));
+        assert!(matches!(bad(&[u32::MAX, 8, 0]), ArrayError::TooLarge { .. }));
         assert!(matches!(bad(&[1, 100, 0, 41]), ArrayError::CutShort { .. }));
-        assert!(matches!(
-            bad(&[1, 50_000, 0, 40]),
-            ArrayError::TooLarge { .. }
-        ));
-        assert!(matches!(
-            read(&[], 2).unwrap_err(),
-            ArrayError::CutShort { .. }
-        ));
+        assert!(matches!(bad(&[1, 50_000, 0, 40]), ArrayError::TooLarge { .. }));
+        assert!(matches!(read(&[], 2).unwrap_err(), ArrayError::CutShort { .. }));
     }
 }

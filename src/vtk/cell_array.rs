@@ -16,10 +16,7 @@ pub struct CellArray {
 
 impl Default for CellArray {
     fn default() -> Self {
-        Self {
-            offsets: vec![0],
-            connectivity: Vec::new(),
-        }
+        Self { offsets: vec![0], connectivity: Vec::new() }
     }
 }
 
@@ -46,10 +43,7 @@ impl CellArray {
                 expected: usize::try_from(last).unwrap_or(usize::MAX),
             });
         }
-        Ok(Self {
-            offsets,
-            connectivity,
-        })
+        Ok(Self { offsets, connectivity })
     }
 
     /// The number of lists.
@@ -118,9 +112,7 @@ pub(super) fn check_rising(offsets: &[i64]) -> Result<(), ArrayError> {
 /// The place of the first index outside `0..count`.
 pub(super) fn first_outside(indices: &[i64], count: usize) -> Option<usize> {
     // As unsigned numbers, negative indices are beyond every count.
-    indices
-        .iter()
-        .position(|index| *index as u64 >= count as u64)
+    indices.iter().position(|index| *index as u64 >= count as u64)
 }
 
 #[cfg(test)]
@@ -136,10 +128,7 @@ mod tests {
         assert_eq!(cells.len(), 3);
         assert_eq!(cells.get(2), Some(&[2i64, 3][..]));
         assert_eq!(cells.get(3), None);
-        assert_eq!(
-            cells.iter().map(<[i64]>::len).collect::<Vec<_>>(),
-            [3, 0, 2]
-        );
+        assert_eq!(cells.iter().map(<[i64]>::len).collect::<Vec<_>>(), [3, 0, 2]);
         let again = CellArray::from_parts(vec![0, 3, 3, 5], vec![0, 1, 2, 2, 3]);
         assert_eq!(again.unwrap(), cells);
     }
@@ -150,31 +139,15 @@ mod tests {
             |offsets: &[i64]| CellArray::from_parts(offsets.to_vec(), vec![0, 1]).unwrap_err();
         assert!(matches!(refuse(&[]), ArrayError::FirstOffset));
         assert!(matches!(refuse(&[1, 2]), ArrayError::FirstOffset));
-        assert!(matches!(
-            refuse(&[0, 2, 1]),
-            ArrayError::FallingOffsets { cell: 1 }
-        ));
-        assert!(matches!(
-            refuse(&[0, 3]),
-            ArrayError::Count {
-                found: 2,
-                expected: 3
-            }
-        ));
+        assert!(matches!(refuse(&[0, 2, 1]), ArrayError::FallingOffsets { cell: 1 }));
+        assert!(matches!(refuse(&[0, 3]), ArrayError::Count { found: 2, expected: 3 }));
     }
 
     #[test]
     fn indices_outside_are_named_with_their_cell() {
         let cells = CellArray::from_parts(vec![0, 2, 2, 4], vec![0, 1, 1, -1]).unwrap();
         let error = cells.check_indices(2).unwrap_err();
-        assert!(matches!(
-            error,
-            ArrayError::IndexOutOfRange {
-                cell: 2,
-                index: -1,
-                count: 2
-            }
-        ));
+        assert!(matches!(error, ArrayError::IndexOutOfRange { cell: 2, index: -1, count: 2 }));
         assert!(CellArray::new().check_indices(0).is_ok());
     }
 }

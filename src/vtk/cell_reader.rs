@@ -17,10 +17,7 @@ pub(super) struct ListNames {
 }
 
 /// The names for the points of cells.
-pub(super) const CELLS: ListNames = ListNames {
-    connectivity: "connectivity",
-    offsets: "offsets",
-};
+pub(super) const CELLS: ListNames = ListNames { connectivity: "connectivity", offsets: "offsets" };
 
 /// Where the lists of one piece are.
 pub(super) struct ListSource<'a> {
@@ -55,10 +52,7 @@ impl<'a> Integers<'a> {
         let head = heads.into_iter().find(|head| head.name == name);
         let head = head.ok_or(ArrayError::Missing)?;
         let (kind, _) = head.shape.clone()?;
-        let not_integer = ArrayError::WrongType {
-            found: kind,
-            expected: "an integer",
-        };
+        let not_integer = ArrayError::WrongType { found: kind, expected: "an integer" };
         if kind.is_float() {
             return Err(not_integer);
         }
@@ -67,15 +61,8 @@ impl<'a> Integers<'a> {
         let found = payload.count(size)?;
         let count = expected.unwrap_or(found);
         match found == count {
-            true => Ok(Self {
-                payload,
-                head,
-                count,
-            }),
-            false => Err(ArrayError::Count {
-                found,
-                expected: count,
-            }),
+            true => Ok(Self { payload, head, count }),
+            false => Err(ArrayError::Count { found, expected: count }),
         }
     }
 
@@ -102,9 +89,7 @@ impl<'a> Integers<'a> {
 fn convert<T: Scalar, D: TryFrom<i64>>(source: &[T], dest: &mut [D]) -> Result<(), ArrayError> {
     for (to, from) in dest.iter_mut().zip(source) {
         let number = from.to_i64().and_then(|number| D::try_from(number).ok());
-        *to = number.ok_or_else(|| ArrayError::NoIndex {
-            value: from.to_f64().to_string(),
-        })?;
+        *to = number.ok_or_else(|| ArrayError::NoIndex { value: from.to_f64().to_string() })?;
     }
     Ok(())
 }
@@ -154,13 +139,8 @@ fn read_offsets(
         };
         parts.push(open.map_err(|e| file.array_error(&source.label, name, e))?);
     }
-    let counts: Vec<usize> = parts
-        .iter()
-        .map(|p| p.as_ref().map_or(0, Integers::count))
-        .collect();
-    let lists = counts
-        .iter()
-        .fold(1usize, |sum, count| sum.saturating_add(*count));
+    let counts: Vec<usize> = parts.iter().map(|p| p.as_ref().map_or(0, Integers::count)).collect();
+    let lists = counts.iter().fold(1usize, |sum, count| sum.saturating_add(*count));
     let mut offsets = vec![0i64; lists];
     let mut totals = Vec::with_capacity(sources.len());
     let mut start = 0;
@@ -184,15 +164,11 @@ fn decode_offsets(part: &Integers<'_>, dest: &mut [i64]) -> Result<usize, ArrayE
     };
     part.decode(ends)?;
     if let Some(first) = ends.first().filter(|first| **first < 0) {
-        return Err(ArrayError::NoIndex {
-            value: first.to_string(),
-        });
+        return Err(ArrayError::NoIndex { value: first.to_string() });
     }
     check_rising(ends)?;
     let last = ends.last().copied().unwrap_or(0);
-    let too_large = || ArrayError::NoIndex {
-        value: last.to_string(),
-    };
+    let too_large = || ArrayError::NoIndex { value: last.to_string() };
     before.checked_add(last).ok_or_else(too_large)?;
     // The ends rise, so none overflows where the last does not.
     ends.iter_mut().for_each(|end| *end += *before);
@@ -246,10 +222,7 @@ mod tests {
 
     /// Reads lists of pieces, each given as (number of lists, bound, arrays).
     fn read(pieces: &[(Option<usize>, usize, &str)]) -> Result<CellArray, VtkError> {
-        let sections: String = pieces
-            .iter()
-            .map(|p| format!("<Cells>{}</Cells>", p.2))
-            .collect();
+        let sections: String = pieces.iter().map(|p| format!("<Cells>{}</Cells>", p.2)).collect();
         let text = format!("<VTKFile type='x'><x>{sections}</x></VTKFile>");
         let bytes = FileBytes::Owned(text.into_bytes());
         let file = XmlFile::parse(Path::new("x.vtu"), bytes, "x")?;
@@ -301,9 +274,6 @@ mod tests {
         assert!(message("UInt64", "0 1 2", "1 18446744073709551615").contains("no index"));
         assert!(message("Int64", "0 1 2", "1 9223372036854775807").contains("3 values where"));
         let missing = read(&[(Some(1), 3, "")]).unwrap_err().to_string();
-        assert!(
-            missing.contains("'offsets' of Cells: it is missing"),
-            "{missing}"
-        );
+        assert!(missing.contains("'offsets' of Cells: it is missing"), "{missing}");
     }
 }

@@ -84,10 +84,7 @@ struct Converted<'a, T, D> {
 
 impl<'a, T, D> Converted<'a, T, D> {
     fn new(source: &'a [T]) -> Self {
-        Self {
-            source,
-            dest: PhantomData,
-        }
+        Self { source, dest: PhantomData }
     }
 }
 
@@ -202,10 +199,7 @@ mod tests {
     fn floats_in_another_precision() {
         let values = Values::from(vec![0.1f64, 1e300]);
         let single = column(&values, Floats::Single);
-        assert_eq!(
-            (single.array_type(), single.value_size()),
-            (ArrayType::F32, 4)
-        );
+        assert_eq!((single.array_type(), single.value_size()), (ArrayType::F32, 4));
         assert_eq!(text(&*single), " 0.1 inf");
         assert_eq!(text(&*column(&values, Floats::Double)), " 0.1 1e300");
         let values = Values::from(vec![0.5f32]);

@@ -130,9 +130,7 @@ mod tests {
 
     #[test]
     fn blocks_come_back() {
-        let bytes: Vec<u8> = (0..100_000u32)
-            .flat_map(|i| (i / 7).to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = (0..100_000u32).flat_map(|i| (i / 7).to_le_bytes()).collect();
         for compressor in ALL {
             for len in [1, 4, 1000, bytes.len()] {
                 let block = compressor.compress(&bytes[..len]).unwrap();

@@ -80,10 +80,7 @@ impl<'a> Sections<'a> {
     /// One line for each array that is not read as the file has it.
     pub(super) fn warnings(&self) -> Vec<String> {
         let sections = [&self.points, &self.cells, &self.field];
-        sections
-            .iter()
-            .flat_map(|section| section.warnings())
-            .collect()
+        sections.iter().flat_map(|section| section.warnings()).collect()
     }
 
     /// Describes the arrays of a file with these pieces.
@@ -101,10 +98,7 @@ impl<'a> Sections<'a> {
 
 fn describe(section: &JoinedSection<'_>) -> Vec<ArrayInfo> {
     let info = |array: &JoinedArray<'_>| {
-        let active = section
-            .active
-            .iter()
-            .filter(|(_, name)| *name == array.name);
+        let active = section.active.iter().filter(|(_, name)| *name == array.name);
         ArrayInfo {
             name: array.name.clone(),
             array_type: array.array_type,

@@ -14,11 +14,7 @@ pub(super) enum ByteOrder {
 impl ByteOrder {
     /// Whether numbers in this order must be turned on this machine.
     pub(super) fn is_foreign(self) -> bool {
-        let native = if cfg!(target_endian = "big") {
-            Self::Big
-        } else {
-            Self::Little
-        };
+        let native = if cfg!(target_endian = "big") { Self::Big } else { Self::Little };
         self != native
     }
 }
@@ -89,11 +85,7 @@ impl<'a> Coded<'a> {
 
     /// The error that the data end too early.
     pub(super) fn cut_short(&self, needed: u64) -> ArrayError {
-        ArrayError::CutShort {
-            offset: self.offset,
-            needed,
-            available: self.bytes.len(),
-        }
+        ArrayError::CutShort { offset: self.offset, needed, available: self.bytes.len() }
     }
 
     /// The first `count` bytes of the run that begins here. Fewer only where a padded
@@ -163,12 +155,10 @@ impl<'a> Coded<'a> {
 fn copy_parallel(source: &[u8], dest: &mut [u8]) {
     use rayon::prelude::*;
     const CHUNK: usize = 1 << 20;
-    dest.par_chunks_mut(CHUNK)
-        .zip(source.par_chunks(CHUNK))
-        .for_each(|(to, from)| {
-            let count = to.len().min(from.len());
-            to[..count].copy_from_slice(&from[..count]);
-        });
+    dest.par_chunks_mut(CHUNK).zip(source.par_chunks(CHUNK)).for_each(|(to, from)| {
+        let count = to.len().min(from.len());
+        to[..count].copy_from_slice(&from[..count]);
+    });
 }
 
 #[cfg(test)]
@@ -189,11 +179,7 @@ mod tests {
     #[test]
     fn one_base64_run_holds_header_and_data() {
         // Four header bytes (8 as a little-endian word), then the float64 1.5.
-        let coded = Coded {
-            bytes: b"CAAAAAAAAAAAAPg/rest",
-            offset: 100,
-            coding: Coding::Base64,
-        };
+        let coded = Coded { bytes: b"CAAAAAAAAAAAAPg/rest", offset: 100, coding: Coding::Base64 };
         assert_eq!(coded.peek(4).unwrap()[..4], [8, 0, 0, 0]);
         let mut value = [0; 8];
         coded.decode(4, &mut value).unwrap();
@@ -205,11 +191,7 @@ mod tests {
     #[test]
     fn runs_longer_than_the_file_are_refused() {
         for coding in [Coding::Raw, Coding::Base64] {
-            let coded = Coded {
-                bytes: b"AAAA",
-                offset: 0,
-                coding,
-            };
+            let coded = Coded { bytes: b"AAAA", offset: 0, coding };
             assert!(matches!(coded.peek(5), Err(ArrayError::CutShort { .. })));
             assert!(coded.after(usize::MAX).is_err());
             assert!(coded.decode(usize::MAX, &mut [0; 2]).is_err());

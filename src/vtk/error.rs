@@ -31,19 +31,11 @@ pub enum VtkError {
 
     /// The file holds another kind of data.
     #[error("'{}' holds a VTK {found}, but a {expected} is expected", path.display())]
-    OtherType {
-        path: PathBuf,
-        found: String,
-        expected: &'static str,
-    },
+    OtherType { path: PathBuf, found: String, expected: &'static str },
 
     /// The XML is not well formed.
     #[error("'{}': bad XML at byte {offset}: {problem}", path.display())]
-    Xml {
-        path: PathBuf,
-        offset: u64,
-        problem: String,
-    },
+    Xml { path: PathBuf, offset: u64, problem: String },
 
     /// The file stops before its end.
     #[error("'{}' is cut short: {missing}; copy or write it again", path.display())]
@@ -61,38 +53,19 @@ pub enum VtkError {
 
     /// An array cannot be decoded.
     #[error("'{}': array '{name}' of {section}: {problem}", path.display())]
-    Array {
-        path: PathBuf,
-        section: String,
-        name: String,
-        problem: ArrayError,
-    },
+    Array { path: PathBuf, section: String, name: String, problem: ArrayError },
 
     /// An array that was asked for is not in the file.
     #[error("'{}' has no array '{name}' in {section}; it has {}", path.display(), list(available))]
-    MissingArray {
-        path: PathBuf,
-        section: &'static str,
-        name: String,
-        available: Vec<String>,
-    },
+    MissingArray { path: PathBuf, section: &'static str, name: String, available: Vec<String> },
 
     /// An array that was asked for is in the file, but cannot be used.
     #[error("'{}': array '{name}' of {section} cannot be used: {reason}", path.display())]
-    UnusableArray {
-        path: PathBuf,
-        section: &'static str,
-        name: String,
-        reason: String,
-    },
+    UnusableArray { path: PathBuf, section: &'static str, name: String, reason: String },
 
     /// The data given to a writer contradict themselves.
     #[error("cannot write array '{name}' of {section}: {problem}")]
-    Inconsistent {
-        section: &'static str,
-        name: String,
-        problem: ArrayError,
-    },
+    Inconsistent { section: &'static str, name: String, problem: ArrayError },
 }
 
 /// What is wrong with one array. Offsets are bytes from the beginning of the file.
@@ -106,10 +79,7 @@ pub enum ArrayError {
     UnknownType(String),
 
     #[error("type {found} where {expected} is expected")]
-    WrongType {
-        found: ArrayType,
-        expected: &'static str,
-    },
+    WrongType { found: ArrayType, expected: &'static str },
 
     #[error("{found} components where {expected} are expected")]
     Components { found: usize, expected: usize },
@@ -121,10 +91,7 @@ pub enum ArrayError {
     UnknownCompressor(String),
 
     #[error("{attribute}=\"{value}\" is not a count")]
-    BadAttribute {
-        attribute: &'static str,
-        value: String,
-    },
+    BadAttribute { attribute: &'static str, value: String },
 
     #[error("it is appended, but the file has no <AppendedData>")]
     NoAppendedData,
@@ -133,21 +100,13 @@ pub enum ArrayError {
     OffsetOutside { offset: u64, available: usize },
 
     #[error("its data at byte {offset} are cut short: {needed} bytes needed, {available} left")]
-    CutShort {
-        offset: usize,
-        needed: u64,
-        available: usize,
-    },
+    CutShort { offset: usize, needed: u64, available: usize },
 
     #[error("bad base64 near byte {offset}")]
     BadBase64 { offset: usize },
 
     #[error("'{token}' at byte {offset} is not a number of type {expected}")]
-    BadNumber {
-        token: String,
-        offset: usize,
-        expected: ArrayType,
-    },
+    BadNumber { token: String, offset: usize, expected: ArrayType },
 
     #[error("{found} values where {expected} are expected")]
     Count { found: usize, expected: usize },
@@ -174,11 +133,7 @@ pub enum ArrayError {
     FallingOffsets { cell: usize },
 
     #[error("cell {cell} has the index {index}, outside 0..{count}")]
-    IndexOutOfRange {
-        cell: usize,
-        index: i64,
-        count: usize,
-    },
+    IndexOutOfRange { cell: usize, index: i64, count: usize },
 
     #[error("value {at} is the index {index}, outside 0..{count}")]
     OutOfRange { at: usize, index: i64, count: usize },

@@ -44,10 +44,7 @@ impl<'a> JoinedArray<'a> {
         for (head, tuples) in &self.parts {
             let payload = file.payload(head.node, budget)?;
             let tuples = tuples.map(|tuples| tuples.checked_mul(self.components));
-            let part = Part {
-                payload,
-                count: tuples.map(|count| count.unwrap_or(usize::MAX)),
-            };
+            let part = Part { payload, count: tuples.map(|count| count.unwrap_or(usize::MAX)) };
             part.check(self.array_type)?;
             parts.push(part);
         }
@@ -118,10 +115,7 @@ impl OpenArray<'_> {
             counts.push(part.payload.count(size_of::<T>())?);
         }
         let total = counts.iter().try_fold(0usize, |sum, n| sum.checked_add(*n));
-        let too_many = ArrayError::Count {
-            found: usize::MAX,
-            expected: 0,
-        };
+        let too_many = ArrayError::Count { found: usize::MAX, expected: 0 };
         let mut values = vec![T::zeroed(); total.ok_or(too_many)?];
         let mut rest = &mut values[..];
         for (part, count) in self.parts.iter().zip(counts) {
@@ -170,10 +164,9 @@ fn strings(part: &Part<'_>) -> Result<Vec<String>, ArrayError> {
         texts.pop();
     }
     match part.count {
-        Some(expected) if expected != texts.len() => Err(ArrayError::Count {
-            found: texts.len(),
-            expected,
-        }),
+        Some(expected) if expected != texts.len() => {
+            Err(ArrayError::Count { found: texts.len(), expected })
+        }
         _ => Ok(texts),
     }
 }
@@ -187,10 +180,7 @@ mod tests {
     use super::*;
 
     fn part(text: &str, count: Option<usize>) -> Part<'_> {
-        Part {
-            payload: Payload::ascii(text.as_bytes(), 0),
-            count,
-        }
+        Part { payload: Payload::ascii(text.as_bytes(), 0), count }
     }
 
     #[test]
@@ -205,13 +195,7 @@ mod tests {
     #[test]
     fn wrong_counts_are_refused_before_decoding() {
         let error = part("1 2 x", Some(4)).check(ArrayType::I8).unwrap_err();
-        assert_eq!(
-            error,
-            ArrayError::Count {
-                found: 3,
-                expected: 4
-            }
-        );
+        assert_eq!(error, ArrayError::Count { found: 3, expected: 4 });
         assert!(part("1 2 x", Some(3)).check(ArrayType::I8).is_ok());
     }
 }

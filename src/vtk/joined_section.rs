@@ -54,8 +54,7 @@ impl<'a> JoinedSection<'a> {
         let heads = filled.iter().skip(1).flat_map(|section| &section.heads);
         for head in heads.filter(|head| model.get(&head.name).is_none()) {
             if seen.insert(&head.name) {
-                self.unusable
-                    .push((head.name.clone(), NOT_EVERYWHERE.to_owned()));
+                self.unusable.push((head.name.clone(), NOT_EVERYWHERE.to_owned()));
             }
         }
     }
@@ -106,12 +105,9 @@ impl<'a> JoinedSection<'a> {
     fn missing(&self, file: &XmlFile, name: &str) -> VtkError {
         let (path, name) = (file.path().to_owned(), name.to_owned());
         match self.unusable.iter().find(|(known, _)| *known == name) {
-            Some((_, reason)) => VtkError::UnusableArray {
-                path,
-                section: self.label,
-                name,
-                reason: reason.clone(),
-            },
+            Some((_, reason)) => {
+                VtkError::UnusableArray { path, section: self.label, name, reason: reason.clone() }
+            }
             None => VtkError::MissingArray {
                 path,
                 section: self.label,
@@ -133,12 +129,7 @@ impl<'a> JoinedSection<'a> {
             let open = array.open(file, budget);
             arrays.push(open.map_err(|problem| file.array_error(self.label, &name, problem))?);
         }
-        Ok(OpenSection {
-            file,
-            label: self.label,
-            arrays,
-            active: self.active,
-        })
+        Ok(OpenSection { file, label: self.label, arrays, active: self.active })
     }
 }
 
@@ -196,9 +187,7 @@ mod tests {
 
     /// Joins the point data of pieces given as (tuples, arrays).
     fn join(pieces: &[(usize, &str)], check: impl Fn(JoinedSection<'_>)) {
-        let parts = pieces
-            .iter()
-            .map(|(_, arrays)| format!("<P Scalars='a'>{arrays}</P>"));
+        let parts = pieces.iter().map(|(_, arrays)| format!("<P Scalars='a'>{arrays}</P>"));
         let text = format!("<x>{}</x>", parts.collect::<String>());
         let document = Document::parse(text.as_bytes()).unwrap();
         let nodes = document.root(text.as_bytes()).children();
@@ -213,11 +202,7 @@ mod tests {
     const B: &str = "<DataArray Name='b' type='Float32' NumberOfComponents='3'/>";
 
     fn names(section: &JoinedSection<'_>) -> Vec<String> {
-        section
-            .arrays
-            .iter()
-            .map(|array| array.name.clone())
-            .collect()
+        section.arrays.iter().map(|array| array.name.clone()).collect()
     }
 
     #[test]

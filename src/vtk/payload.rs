@@ -47,18 +47,12 @@ enum Form<'a> {
 impl<'a> Payload<'a> {
     /// No values.
     pub(super) fn empty() -> Self {
-        Self {
-            order: ByteOrder::Little,
-            form: Form::Empty,
-        }
+        Self { order: ByteOrder::Little, form: Form::Empty }
     }
 
     /// Numbers as text that begins at byte `offset` of the file.
     pub(super) fn ascii(text: &'a [u8], offset: usize) -> Self {
-        Self {
-            form: Form::Ascii(AsciiText::new(text, offset)),
-            ..Self::empty()
-        }
+        Self { form: Form::Ascii(AsciiText::new(text, offset)), ..Self::empty() }
     }
 
     /// Coded bytes that begin with a header.
@@ -72,27 +66,18 @@ impl<'a> Payload<'a> {
                 let compressor = Compressor::from_name(name)?;
                 let (table, coded) =
                     BlockTable::read(coded, layout.word, layout.order, compressor)?;
-                Form::Blocks {
-                    coded,
-                    table,
-                    compressor,
-                }
+                Form::Blocks { coded, table, compressor }
             }
         };
-        Ok(Self {
-            order: layout.order,
-            form,
-        })
+        Ok(Self { order: layout.order, form })
     }
 
     fn plain(coded: Coded<'a>, layout: &Layout) -> Result<Form<'a>, ArrayError> {
         let size = layout.word.size();
         let header = coded.peek(size)?;
         let promised = layout.word.words(&header, layout.order).next().unwrap_or(0);
-        let too_large = || ArrayError::TooLarge {
-            offset: coded.offset,
-            promised: format!("{promised} bytes"),
-        };
+        let too_large =
+            || ArrayError::TooLarge { offset: coded.offset, promised: format!("{promised} bytes") };
         let bytes = usize::try_from(promised).map_err(|_| too_large())?;
         // Some writers code the header as a run of its own; it then ends with padding.
         let own_run = coded.coding == Coding::Base64 && header.len() == size && bytes > 0;
@@ -144,10 +129,7 @@ impl<'a> Payload<'a> {
     pub(super) fn decode<T: Scalar>(&self, dest: &mut [T]) -> Result<(), ArrayError> {
         let found = self.count(size_of::<T>())?;
         if found != dest.len() {
-            return Err(ArrayError::Count {
-                found,
-                expected: dest.len(),
-            });
+            return Err(ArrayError::Count { found, expected: dest.len() });
         }
         match &self.form {
             Form::Empty => return Ok(()),
@@ -155,15 +137,12 @@ impl<'a> Payload<'a> {
             Form::Plain { coded, skip, .. } => {
                 coded.decode(*skip, bytemuck::cast_slice_mut(dest))?;
             }
-            Form::Blocks {
-                coded,
-                table,
-                compressor,
-            } => decode_blocks(*coded, table, *compressor, bytemuck::cast_slice_mut(dest))?,
+            Form::Blocks { coded, table, compressor } => {
+                decode_blocks(*coded, table, *compressor, bytemuck::cast_slice_mut(dest))?
+            }
         }
         if self.order.is_foreign() && size_of::<T>() > 1 {
-            dest.par_iter_mut()
-                .for_each(|value| *value = value.swap_bytes());
+            dest.par_iter_mut().for_each(|value| *value = value.swap_bytes());
         }
         Ok(())
     }
@@ -187,10 +166,7 @@ fn decode_blocks(
     let block = |(index, (range, part)): (usize, (Range<usize>, &mut [u8]))| {
         let block = source.get(range).unwrap_or_default();
         let result = compressor.decompress(block, part);
-        result.map_err(|problem| ArrayError::Decompression {
-            block: index,
-            problem,
-        })
+        result.map_err(|problem| ArrayError::Decompression { block: index, problem })
     };
     let ranges: Vec<_> = table.ranges().collect();
     let parts = dest.par_chunks_mut(table.block_size);
@@ -204,19 +180,11 @@ mod tests {
     use super::*;
 
     fn layout(order: ByteOrder, compressor: Option<&str>) -> Layout {
-        Layout {
-            order,
-            word: HeaderWord::U32,
-            compressor: compressor.map(str::to_owned),
-        }
+        Layout { order, word: HeaderWord::U32, compressor: compressor.map(str::to_owned) }
     }
 
     fn coded(bytes: &[u8], coding: Coding) -> Coded<'_> {
-        Coded {
-            bytes,
-            offset: 0,
-            coding,
-        }
+        Coded { bytes, offset: 0, coding }
     }
 
     #[test]
@@ -234,11 +202,8 @@ mod tests {
     #[test]
     fn base64_with_the_header_in_or_before_the_run() {
         let layout = layout(ByteOrder::Little, None);
-        for text in [
-            &b"CAAAAAAAAAAAAPg/"[..],
-            b"CAAAAA==AAAAAAAA+D8=",
-            b" CAAA\nAA== AAAAAAAA+D8=",
-        ] {
+        for text in [&b"CAAAAAAAAAAAAPg/"[..], b"CAAAAA==AAAAAAAA+D8=", b" CAAA\nAA== AAAAAAAA+D8="]
+        {
             let payload = Payload::binary(coded(text, Coding::Base64), &layout).unwrap();
             assert_eq!(payload.to_vec::<f64>(), Ok(vec![1.5]));
         }
@@ -252,10 +217,8 @@ mod tests {
     fn compressed_in_several_blocks() {
         let numbers: Vec<u32> = (0..2500).collect();
         let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
-        let blocks: Vec<_> = bytes
-            .chunks(4000)
-            .map(|chunk| Compressor::Lz4.compress(chunk).unwrap())
-            .collect();
+        let blocks: Vec<_> =
+            bytes.chunks(4000).map(|chunk| Compressor::Lz4.compress(chunk).unwrap()).collect();
         let sizes = blocks.iter().map(|block| block.len() as u32);
         let words = [3, 4000, 2000].into_iter().chain(sizes);
         let mut file: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
@@ -270,10 +233,7 @@ mod tests {
     fn promises_beyond_the_file_are_refused_at_once() {
         let huge = [0xFF; 8];
         let plain = layout(ByteOrder::Little, None);
-        let wide = Layout {
-            word: HeaderWord::U64,
-            ..plain.clone()
-        };
+        let wide = Layout { word: HeaderWord::U64, ..plain.clone() };
         for layout in [plain, wide] {
             assert!(Payload::binary(coded(&huge, Coding::Raw), &layout).is_err());
         }

@@ -63,19 +63,11 @@ impl<'a> Piece<'a> {
     ) -> Result<Vec<Self>, VtkError> {
         let pieces = file.data_set()?.children();
         let pieces = pieces.filter(|node| node.name() == "Piece");
-        let pieces: Vec<Self> = pieces
-            .map(|node| read(file, node))
-            .collect::<Result<_, _>>()?;
+        let pieces: Vec<Self> = pieces.map(|node| read(file, node)).collect::<Result<_, _>>()?;
         // Indices are i64, so no more points or cells than that can be told apart.
         for (part, name) in [
-            (
-                pieces.iter().map(|p| p.counts.points).collect(),
-                "NumberOfPoints",
-            ),
-            (
-                pieces.iter().map(|p| p.counts.cells).collect::<Vec<_>>(),
-                "NumberOfCells",
-            ),
+            (pieces.iter().map(|p| p.counts.points).collect(), "NumberOfPoints"),
+            (pieces.iter().map(|p| p.counts.cells).collect::<Vec<_>>(), "NumberOfCells"),
         ] {
             let total = sum(part.into_iter()).and_then(|total| i64::try_from(total).ok());
             if let (None, Some(first)) = (total, pieces.first()) {

@@ -24,9 +24,8 @@ pub(super) fn open_points<'a>(
 
 /// Decodes the points: `Float32` and `Float64` are kept, integers become `Float64`.
 pub(super) fn decode_points(file: &XmlFile, points: OpenArray<'_>) -> Result<DataArray, VtkError> {
-    let mut array = points
-        .decode()
-        .map_err(|problem| file.array_error(SECTION, SECTION, problem))?;
+    let mut array =
+        points.decode().map_err(|problem| file.array_error(SECTION, SECTION, problem))?;
     if !array.array_type().is_float() {
         array.values = Values::F64(array.to_f64().unwrap_or_default());
     }
@@ -54,10 +53,7 @@ fn head_of<'a>(piece: &Piece<'a>) -> Option<ArrayHead<'a>> {
 fn like<'a>(head: &ArrayHead<'a>) -> Result<JoinedArray<'a>, ArrayError> {
     let points = JoinedArray::like(head)?;
     if matches!(points.array_type, ArrayType::Bit | ArrayType::String) {
-        return Err(ArrayError::WrongType {
-            found: points.array_type,
-            expected: "a number",
-        });
+        return Err(ArrayError::WrongType { found: points.array_type, expected: "a number" });
     }
     match points.components {
         3 => Ok(points),
@@ -68,10 +64,9 @@ fn like<'a>(head: &ArrayHead<'a>) -> Result<JoinedArray<'a>, ArrayError> {
 fn check_type(head: &ArrayHead<'_>, expected: ArrayType) -> Result<(), ArrayError> {
     match head.shape.clone()? {
         (found, 3) if found == expected => Ok(()),
-        (_, 3) => Err(ArrayError::WrongType {
-            found: head.shape.clone()?.0,
-            expected: expected.name(),
-        }),
+        (_, 3) => {
+            Err(ArrayError::WrongType { found: head.shape.clone()?.0, expected: expected.name() })
+        }
         (_, found) => Err(ArrayError::Components { found, expected: 3 }),
     }
 }

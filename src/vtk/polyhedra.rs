@@ -63,9 +63,7 @@ impl Polyhedra {
             stream.push(cell.len() as i64);
             for face in cell {
                 let face = usize::try_from(*face).ok();
-                let points = face
-                    .and_then(|face| self.faces.get(face))
-                    .unwrap_or_default();
+                let points = face.and_then(|face| self.faces.get(face)).unwrap_or_default();
                 stream.push(points.len() as i64);
                 stream.extend_from_slice(points);
             }

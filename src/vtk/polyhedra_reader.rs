@@ -9,14 +9,9 @@ use super::polyhedra::Polyhedra;
 use super::xml_file::{Budget, XmlFile};
 
 /// VTK 9.4 and later: the points of every face, and the faces of every cell.
-const FACES: ListNames = ListNames {
-    connectivity: "face_connectivity",
-    offsets: "face_offsets",
-};
-const CELL_FACES: ListNames = ListNames {
-    connectivity: "polyhedron_to_faces",
-    offsets: "polyhedron_offsets",
-};
+const FACES: ListNames = ListNames { connectivity: "face_connectivity", offsets: "face_offsets" };
+const CELL_FACES: ListNames =
+    ListNames { connectivity: "polyhedron_to_faces", offsets: "polyhedron_offsets" };
 
 /// Reads the faces of all pieces; `None` where no piece has any.
 pub(super) fn read_polyhedra(
@@ -89,11 +84,9 @@ fn check_points(polyhedra: &Polyhedra, count: usize) -> Result<(), ArrayError> {
     let points = polyhedra.faces.connectivity();
     match first_outside(points, count) {
         None => Ok(()),
-        Some(at) => Err(ArrayError::OutOfRange {
-            at,
-            index: points.get(at).copied().unwrap_or(0),
-            count,
-        }),
+        Some(at) => {
+            Err(ArrayError::OutOfRange { at, index: points.get(at).copied().unwrap_or(0), count })
+        }
     }
 }
 

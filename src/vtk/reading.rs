@@ -53,10 +53,7 @@ impl<'a> Reading<'a> {
         let point_data = sections.points.select(file, selection.points())?;
         let cell_data = sections.cells.select(file, selection.cells())?;
         let labelled = [&point_data, &cell_data, &sections.field];
-        let warnings = labelled
-            .iter()
-            .flat_map(|section| section.warnings())
-            .collect();
+        let warnings = labelled.iter().flat_map(|section| section.warnings()).collect();
         Ok(Self {
             file,
             points,

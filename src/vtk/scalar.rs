@@ -86,19 +86,12 @@ macro_rules! float {
             }
 
             fn parse(token: &str) -> Option<Self> {
-                token
-                    .parse()
-                    .ok()
-                    .or_else(|| parse_special(token).map(|value| value as $type))
+                token.parse().ok().or_else(|| parse_special(token).map(|value| value as $type))
             }
 
             fn format(self, out: &mut Vec<u8>) {
                 // VTK writes and reads lower case; Debug switches to exponents where it is shorter.
-                let text = if self.is_nan() {
-                    String::from("nan")
-                } else {
-                    format!("{self:?}")
-                };
+                let text = if self.is_nan() { String::from("nan") } else { format!("{self:?}") };
                 out.extend_from_slice(text.as_bytes());
             }
 
@@ -160,15 +153,7 @@ mod tests {
 
     #[test]
     fn special_spellings_are_read() {
-        for token in [
-            "nan",
-            "NaN",
-            "-nan",
-            "nan(ind)",
-            "-nan(ind)",
-            "1.#QNAN",
-            "-1.#IND",
-        ] {
+        for token in ["nan", "NaN", "-nan", "nan(ind)", "-nan(ind)", "1.#QNAN", "-1.#IND"] {
             assert!(f64::parse(token).is_some_and(f64::is_nan), "{token}");
         }
         assert_eq!(f32::parse("-1.#INF"), Some(f32::NEG_INFINITY));

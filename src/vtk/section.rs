@@ -77,10 +77,7 @@ mod tests {
         assert_eq!(section.repeated, ["v"]);
         assert_eq!(
             section.active,
-            [
-                (AttributeKind::Scalars, "gone".to_owned()),
-                (AttributeKind::Vectors, "v".to_owned())
-            ]
+            [(AttributeKind::Scalars, "gone".to_owned()), (AttributeKind::Vectors, "v".to_owned())]
         );
         assert!(section.get("s").is_some() && section.get("gone").is_none());
     }

@@ -70,10 +70,7 @@ fn write(out: impl Write, data: &PolyData, options: WriteOptions) -> io::Result<
         ("NumberOfPolys", data.polys.len()),
     ];
     let counts = kinds.map(|(name, count)| (name, count.to_string()));
-    xml.open(
-        "Piece",
-        &counts.each_ref().map(|(name, count)| (*name, &count[..])),
-    )?;
+    xml.open("Piece", &counts.each_ref().map(|(name, count)| (*name, &count[..])))?;
     write_attributes(&mut xml, "PointData", &data.point_data, options)?;
     write_attributes(&mut xml, "CellData", &data.cell_data, options)?;
     write_points(&mut xml, &data.points, options)?;

@@ -50,32 +50,18 @@ fn check(grid: &UnstructuredGrid) -> Result<(), VtkError> {
     };
     let count = |name: &str, found: usize| match found == cells {
         true => Ok(()),
-        false => Err(contradiction(
-            name,
-            ArrayError::Count {
-                found,
-                expected: cells,
-            },
-        )),
+        false => Err(contradiction(name, ArrayError::Count { found, expected: cells })),
     };
     let indices = |error| contradiction("connectivity", error);
-    grid.cells
-        .check_indices(grid.points.tuples())
-        .map_err(indices)?;
+    grid.cells.check_indices(grid.points.tuples()).map_err(indices)?;
     count("types", grid.types.len())?;
     let Some(polyhedra) = &grid.polyhedra else {
         return Ok(());
     };
     count("faceoffsets", polyhedra.cells.len())?;
     let faces = |error| contradiction("faces", error);
-    polyhedra
-        .faces
-        .check_indices(grid.points.tuples())
-        .map_err(faces)?;
-    polyhedra
-        .cells
-        .check_indices(polyhedra.faces.len())
-        .map_err(faces)
+    polyhedra.faces.check_indices(grid.points.tuples()).map_err(faces)?;
+    polyhedra.cells.check_indices(polyhedra.faces.len()).map_err(faces)
 }
 
 fn write(out: impl Write, grid: &UnstructuredGrid, options: WriteOptions) -> io::Result<()> {
@@ -84,19 +70,13 @@ fn write(out: impl Write, grid: &UnstructuredGrid, options: WriteOptions) -> io:
     write_field(&mut xml, &grid.field_data, options)?;
     let points = grid.points.tuples().to_string();
     let cells = grid.cells.len().to_string();
-    xml.open(
-        "Piece",
-        &[("NumberOfPoints", &points), ("NumberOfCells", &cells)],
-    )?;
+    xml.open("Piece", &[("NumberOfPoints", &points), ("NumberOfCells", &cells)])?;
     write_attributes(&mut xml, "PointData", &grid.point_data, options)?;
     write_attributes(&mut xml, "CellData", &grid.cell_data, options)?;
     write_points(&mut xml, &grid.points, options)?;
     xml.open("Cells", &[])?;
     write_lists(&mut xml, &grid.cells)?;
-    xml.array(
-        &ArrayTag::plain("types"),
-        Box::new(numbers(&grid.types[..])),
-    )?;
+    xml.array(&ArrayTag::plain("types"), Box::new(numbers(&grid.types[..])))?;
     if let Some(polyhedra) = &grid.polyhedra {
         write_faces(&mut xml, polyhedra)?;
     }

@@ -41,9 +41,6 @@ pub struct WriteOptions {
 
 impl From<Encoding> for WriteOptions {
     fn from(encoding: Encoding) -> Self {
-        Self {
-            encoding,
-            floats: Floats::default(),
-        }
+        Self { encoding, floats: Floats::default() }
     }
 }

@@ -16,11 +16,8 @@ pub(super) fn check_data(
     cell_data: &Attributes,
     cells: usize,
 ) -> Result<(), VtkError> {
-    let contradiction = |problem| VtkError::Inconsistent {
-        section: "Points",
-        name: points.name.clone(),
-        problem,
-    };
+    let contradiction =
+        |problem| VtkError::Inconsistent { section: "Points", name: points.name.clone(), problem };
     if points.components != 3 {
         return Err(contradiction(ArrayError::Components {
             found: points.components,
@@ -77,9 +74,7 @@ pub(super) fn write_attributes<'a, W: Write>(
     options: WriteOptions,
 ) -> io::Result<()> {
     let active = attributes.active_names().iter();
-    let active: Vec<_> = active
-        .map(|(kind, name)| (kind.name(), &name[..]))
-        .collect();
+    let active: Vec<_> = active.map(|(kind, name)| (kind.name(), &name[..])).collect();
     xml.open(section, &active)?;
     for array in attributes {
         write_array(xml, array, None, options)?;
@@ -119,9 +114,6 @@ pub(super) fn write_lists<'a, W: Write>(
     lists: &'a CellArray,
 ) -> io::Result<()> {
     let ends = lists.offsets().get(1..).unwrap_or_default();
-    xml.array(
-        &ArrayTag::plain("connectivity"),
-        Box::new(numbers(lists.connectivity())),
-    )?;
+    xml.array(&ArrayTag::plain("connectivity"), Box::new(numbers(lists.connectivity())))?;
     xml.array(&ArrayTag::plain("offsets"), Box::new(numbers(ends)))
 }

@@ -46,11 +46,7 @@ impl Document {
     /// Parses `bytes` up to `<AppendedData ...>` or the end of the document.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, XmlProblem> {
         // The reader would not count a byte order mark, so it does not see it.
-        let start = if bytes.starts_with(b"\xEF\xBB\xBF") {
-            3
-        } else {
-            0
-        };
+        let start = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         let mut parser = Parser {
             reader: Reader::from_reader(bytes.get(start..).unwrap_or_default()),
             start,
@@ -65,21 +61,13 @@ impl Document {
 
     /// The outermost element.
     pub(super) fn root<'a>(&'a self, bytes: &'a [u8]) -> Node<'a> {
-        Node {
-            document: self,
-            bytes,
-            index: 0,
-        }
+        Node { document: self, bytes, index: 0 }
     }
 
     /// The element `<AppendedData>` and the byte after its start tag.
     pub(super) fn appended<'a>(&'a self, bytes: &'a [u8]) -> Option<(Node<'a>, usize)> {
         let index = self.elements.len().checked_sub(1)?;
-        let node = Node {
-            document: self,
-            bytes,
-            index,
-        };
+        let node = Node { document: self, bytes, index };
         Some((node, self.appended?))
     }
 }
@@ -123,20 +111,14 @@ impl Parser<'_> {
     }
 
     fn malformed(&self, problem: &str) -> XmlProblem {
-        XmlProblem::Malformed {
-            offset: self.position() as u64,
-            problem: problem.to_owned(),
-        }
+        XmlProblem::Malformed { offset: self.position() as u64, problem: problem.to_owned() }
     }
 
     /// An error of the XML reader: at the end of the file it means a cut one.
     fn syntax_error(&self, offset: u64, error: &quick_xml::Error, bytes: &[u8]) -> XmlProblem {
         match error {
             quick_xml::Error::Syntax(_) if !self.open.is_empty() => self.unclosed(bytes),
-            _ => XmlProblem::Malformed {
-                offset,
-                problem: error.to_string(),
-            },
+            _ => XmlProblem::Malformed { offset, problem: error.to_string() },
         }
     }
 
@@ -233,10 +215,7 @@ impl Parser<'_> {
                 element.end = count;
             }
         }
-        Ok(Document {
-            elements,
-            appended: self.appended,
-        })
+        Ok(Document { elements, appended: self.appended })
     }
 }
 
@@ -280,9 +259,7 @@ impl<'a> Node<'a> {
 
     /// The value of an attribute.
     pub(super) fn attribute(&self, name: &str) -> Option<Cow<'a, str>> {
-        self.attributes()
-            .find(|(key, _)| *key == name)
-            .map(|(_, value)| value)
+        self.attributes().find(|(key, _)| *key == name).map(|(_, value)| value)
     }
 
     /// The place of the text in the file; empty where there is none.
@@ -301,11 +278,7 @@ impl<'a> Node<'a> {
             }
             let index = next;
             next = document.elements.get(index)?.end;
-            Some(Node {
-                document,
-                bytes,
-                index,
-            })
+            Some(Node { document, bytes, index })
         })
     }
 
@@ -362,25 +335,17 @@ mod tests {
         let problem = |text: &str| Document::parse(text.as_bytes()).unwrap_err();
         assert_eq!(problem(""), XmlProblem::Empty);
         assert_eq!(problem("  \n"), XmlProblem::Empty);
-        let unclosed = |name: &str| XmlProblem::Unclosed {
-            element: name.to_owned(),
-        };
+        let unclosed = |name: &str| XmlProblem::Unclosed { element: name.to_owned() };
         assert_eq!(problem("<a><b>1 2"), unclosed("b"));
         assert_eq!(problem("<a><b>1</b><c k='"), unclosed("a"));
         assert!(matches!(problem("<a></b>"), XmlProblem::Malformed { .. }));
-        assert!(matches!(
-            problem("<a k=></a>"),
-            XmlProblem::Malformed { .. }
-        ));
+        assert!(matches!(problem("<a k=></a>"), XmlProblem::Malformed { .. }));
     }
 
     #[test]
     fn deep_and_long_documents_neither_overflow_nor_grow() {
         assert!(Document::parse("<a>".repeat(100_000).as_bytes()).is_err());
         let many = format!("<a>{}</a>", "<b/>".repeat(MAX_ELEMENTS));
-        assert!(matches!(
-            Document::parse(many.as_bytes()),
-            Err(XmlProblem::Malformed { .. })
-        ));
+        assert!(matches!(Document::parse(many.as_bytes()), Err(XmlProblem::Malformed { .. })));
     }
 }

@@ -42,10 +42,8 @@ impl Budget {
 impl XmlFile {
     /// Maps the file and parses its head.
     pub(super) fn open(path: &Path, expected: &'static str) -> Result<Self, VtkError> {
-        let bytes = FileBytes::open(path).map_err(|source| VtkError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let bytes = FileBytes::open(path)
+            .map_err(|source| VtkError::Read { path: path.to_owned(), source })?;
         Self::parse(path, bytes, expected)
     }
 
@@ -62,14 +60,7 @@ impl XmlFile {
         let layout = read_layout(path, root)?;
         let version = root.attribute("version").unwrap_or_default().into_owned();
         let appended = read_appended(path, &document, &bytes)?;
-        Ok(Self {
-            path: path.to_owned(),
-            bytes,
-            document,
-            layout,
-            version,
-            appended,
-        })
+        Ok(Self { path: path.to_owned(), bytes, document, layout, version, appended })
     }
 
     /// The file's name, for messages.
@@ -94,9 +85,7 @@ impl XmlFile {
 
     /// What one reading of the file may take.
     pub(super) fn budget(&self) -> Budget {
-        Budget {
-            left: self.bytes.len(),
-        }
+        Budget { left: self.bytes.len() }
     }
 
     /// Adds the place to what is wrong with an array.
@@ -136,10 +125,7 @@ impl XmlFile {
         let offset: u64 = offset.trim().parse().map_err(|_| bad_offset(offset))?;
         let data = self.bytes.get(range.clone()).unwrap_or_default();
         let start = usize::try_from(offset).ok().filter(|at| *at <= data.len());
-        let start = start.ok_or(ArrayError::OffsetOutside {
-            offset,
-            available: data.len(),
-        })?;
+        let start = start.ok_or(ArrayError::OffsetOutside { offset, available: data.len() })?;
         let coded = Coded {
             bytes: data.get(start..).unwrap_or_default(),
             offset: range.start + start,
@@ -150,11 +136,7 @@ impl XmlFile {
 
     fn inline<'a>(&'a self, array: Node<'a>) -> Result<Payload<'a>, ArrayError> {
         let (text, offset) = self.text(array);
-        let coded = Coded {
-            bytes: text,
-            offset,
-            coding: Coding::Base64,
-        };
+        let coded = Coded { bytes: text, offset, coding: Coding::Base64 };
         Payload::binary(coded, &self.layout)
     }
 
@@ -167,10 +149,7 @@ impl XmlFile {
 }
 
 fn bad_offset(value: &str) -> ArrayError {
-    ArrayError::BadAttribute {
-        attribute: "offset",
-        value: value.to_owned(),
-    }
+    ArrayError::BadAttribute { attribute: "offset", value: value.to_owned() }
 }
 
 /// Recognises files of other kinds by their first bytes.
@@ -183,28 +162,19 @@ fn check_signature(path: &Path, bytes: &[u8]) -> Result<(), VtkError> {
         _ if bytes.starts_with(b"# vtk DataFile") => return Err(VtkError::Legacy { path }),
         _ => return Ok(()),
     };
-    Err(VtkError::NotVtk {
-        path,
-        found: found.to_owned(),
-    })
+    Err(VtkError::NotVtk { path, found: found.to_owned() })
 }
 
 fn xml_error(path: &Path, problem: XmlProblem) -> VtkError {
     let path = path.to_owned();
     match problem {
-        XmlProblem::Malformed { offset, problem } => VtkError::Xml {
-            path,
-            offset,
-            problem,
-        },
-        XmlProblem::Unclosed { element } => VtkError::Truncated {
-            path,
-            missing: format!("it ends inside <{element}>"),
-        },
-        XmlProblem::Empty => VtkError::NotVtk {
-            path,
-            found: String::from("it has no XML element"),
-        },
+        XmlProblem::Malformed { offset, problem } => VtkError::Xml { path, offset, problem },
+        XmlProblem::Unclosed { element } => {
+            VtkError::Truncated { path, missing: format!("it ends inside <{element}>") }
+        }
+        XmlProblem::Empty => {
+            VtkError::NotVtk { path, found: String::from("it has no XML element") }
+        }
     }
 }
 
@@ -217,11 +187,7 @@ fn check_root(path: &Path, root: Node<'_>, expected: &'static str) -> Result<(),
     }
     let found = root.attribute("type").unwrap_or_default().into_owned();
     if found != expected {
-        return Err(VtkError::OtherType {
-            path: path.to_owned(),
-            found,
-            expected,
-        });
+        return Err(VtkError::OtherType { path: path.to_owned(), found, expected });
     }
     Ok(())
 }
@@ -245,11 +211,7 @@ fn read_layout(path: &Path, root: Node<'_>) -> Result<Layout, VtkError> {
         Some(other) => return Err(bad("header_type", other, "UInt32 or UInt64")),
     };
     let compressor = root.attribute("compressor").map(|name| name.into_owned());
-    Ok(Layout {
-        order,
-        word,
-        compressor: compressor.filter(|name| !name.is_empty()),
-    })
+    Ok(Layout { order, word, compressor: compressor.filter(|name| !name.is_empty()) })
 }
 
 /// Finds the appended data: they begin after an underscore and end before the end tag.
@@ -266,10 +228,8 @@ fn read_appended(
         // VTK writes "base64", and takes a missing encoding for it.
         _ => Coding::Base64,
     };
-    let cut = |missing: &str| VtkError::Truncated {
-        path: path.to_owned(),
-        missing: missing.to_owned(),
-    };
+    let cut =
+        |missing: &str| VtkError::Truncated { path: path.to_owned(), missing: missing.to_owned() };
     let data = bytes.get(after_tag..).unwrap_or_default();
     let mark = data.iter().position(|byte| !byte.is_ascii_whitespace());
     let mark = mark.filter(|at| data.get(*at) == Some(&b'_'));
@@ -310,10 +270,7 @@ mod tests {
         assert!(message("<html></html>").contains("<html>"));
         assert!(message("hello").contains("not a VTK XML file"));
         let other = message("<VTKFile type='ImageData'></VTKFile>");
-        assert_eq!(
-            other,
-            "'x.vtu' holds a VTK ImageData, but a UnstructuredGrid is expected"
-        );
+        assert_eq!(other, "'x.vtu' holds a VTK ImageData, but a UnstructuredGrid is expected");
     }
 
     #[test]

@@ -28,22 +28,14 @@ pub(super) struct ArrayTag<'a> {
 impl<'a> ArrayTag<'a> {
     /// An array of single values.
     pub(super) fn plain(name: &'a str) -> Self {
-        Self {
-            name,
-            components: 1,
-            component_names: &[],
-            tuples: None,
-        }
+        Self { name, components: 1, component_names: &[], tuples: None }
     }
 }
 
 /// Values kept for the appended data.
 enum Stored<'a> {
     Plain(Box<dyn Column + 'a>),
-    Compressed {
-        header: Vec<u8>,
-        blocks: Vec<Vec<u8>>,
-    },
+    Compressed { header: Vec<u8>, blocks: Vec<Vec<u8>> },
 }
 
 /// Writes one VTK XML file.
@@ -67,13 +59,7 @@ impl<'a, W: Write> XmlWriter<'a, W> {
             let _ = write!(head, " compressor=\"{}\"", compressor.name());
         }
         writeln!(out, "{head}>")?;
-        Ok(Self {
-            out,
-            encoding: options.encoding,
-            depth: 1,
-            stored: Vec::new(),
-            offset: 0,
-        })
+        Ok(Self { out, encoding: options.encoding, depth: 1, stored: Vec::new(), offset: 0 })
     }
 
     /// Writes a start tag.
@@ -136,8 +122,7 @@ impl<'a, W: Write> XmlWriter<'a, W> {
     /// Writes the appended data and ends the file.
     pub(super) fn finish(mut self) -> io::Result<W> {
         if !self.stored.is_empty() {
-            self.out
-                .write_all(b"  <AppendedData encoding=\"raw\">\n    _")?;
+            self.out.write_all(b"  <AppendedData encoding=\"raw\">\n    _")?;
             for stored in &self.stored {
                 stored.write(&mut self.out)?;
             }
@@ -242,13 +227,8 @@ fn compress<'a>(column: &dyn Column, compressor: Compressor) -> io::Result<Store
     // A last size of 0 stands for a full block.
     let last = byte_count(column) % BLOCK as u64;
     let sizes = blocks.iter().map(|block| block.len() as u64);
-    let words = [blocks.len() as u64, BLOCK as u64, last]
-        .into_iter()
-        .chain(sizes);
-    Ok(Stored::Compressed {
-        header: words.flat_map(u64::to_le_bytes).collect(),
-        blocks,
-    })
+    let words = [blocks.len() as u64, BLOCK as u64, last].into_iter().chain(sizes);
+    Ok(Stored::Compressed { header: words.flat_map(u64::to_le_bytes).collect(), blocks })
 }
 
 fn write_bytes(out: &mut impl Write, column: &dyn Column) -> io::Result<()> {
@@ -330,17 +310,11 @@ mod tests {
     #[test]
     fn one_array_in_three_encodings() {
         let ascii = file(Encoding::Ascii, &[1, 2]);
-        assert!(
-            ascii.contains("format=\"ascii\">\n 1 2\n  </DataArray>\n</VTKFile>"),
-            "{ascii}"
-        );
+        assert!(ascii.contains("format=\"ascii\">\n 1 2\n  </DataArray>\n</VTKFile>"), "{ascii}");
         let base64 = file(Encoding::Base64, &[1, 2]);
         assert!(base64.contains("\nBAAAAAAAAAABAAIA\n"), "{base64}");
         let raw = file(Encoding::Raw, &[1, 2]);
-        assert!(
-            raw.contains("_\u{4}\0\0\0\0\0\0\0\u{1}\0\u{2}\0\n"),
-            "{raw}"
-        );
+        assert!(raw.contains("_\u{4}\0\0\0\0\0\0\0\u{1}\0\u{2}\0\n"), "{raw}");
     }
 
     #[test]

@@ -17,7 +17,9 @@
 pub mod bernstein;
 pub mod contour;
 pub mod field;
+pub mod filter;
 pub mod interpolant;
 pub mod mesh;
 pub mod pde;
+pub mod svg;
 pub mod vtk;

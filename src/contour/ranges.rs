@@ -37,6 +37,18 @@ impl CellRanges {
         Self { ranges, unusable }
     }
 
+    /// Leaves out the usable cells for which `excluded` says so; returns how many.
+    pub fn exclude(&mut self, excluded: impl Fn(usize) -> bool) -> usize {
+        let mut count = 0;
+        for (cell, range) in self.ranges.iter_mut().enumerate() {
+            if *range != EMPTY && excluded(cell) {
+                *range = EMPTY;
+                count += 1;
+            }
+        }
+        count
+    }
+
     /// How many cells have a value or a gradient that is not finite. They hold
     /// no contour.
     pub fn unusable(&self) -> usize {

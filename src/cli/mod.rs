@@ -1,0 +1,44 @@
+//! The command line: one file a subcommand.
+//!
+//! Exit codes: 0 done, 1 the job failed (one line on standard error says why),
+//! 2 wrong usage.
+
+mod arguments;
+mod contour;
+mod info;
+mod messages;
+mod stats;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Cli, Command};
+
+/// Runs the command line of this process.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match (cli.command, cli.contour) {
+        (Some(Command::Contour(arguments)), _) | (None, Some(arguments)) => {
+            contour::run(&arguments)
+        }
+        (Some(Command::Info(arguments)), _) => info::run(&arguments),
+        (Some(Command::Completions { shell }), _) => {
+            let name = env!("CARGO_PKG_NAME");
+            clap_complete::generate(shell, &mut Cli::command(), name, &mut std::io::stdout());
+            Ok(())
+        }
+        (None, None) => {
+            // without a file there is nothing to do but to explain
+            let _ = Cli::command().print_help();
+            return ExitCode::from(2);
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            messages::error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Counts and times of a job, for `--stats`.
+
+use std::time::Instant;
+
+use serde::Serialize;
+use vtu2contour::filter::{Contoured, Stage};
+
+/// Counts and times of a contouring.
+#[derive(Debug, Serialize)]
+pub struct Stats {
+    array: String,
+    /// The gradient's array; null if it was recovered.
+    gradient: Option<String>,
+    range: [f64; 2],
+    levels: Vec<f64>,
+    tolerance: Option<f64>,
+    spacing: Option<f64>,
+    cells: Cells,
+    output: Output,
+    seconds: Seconds,
+}
+
+/// What became of the cells.
+#[derive(Debug, Serialize)]
+struct Cells {
+    triangles: usize,
+    /// Triangles that hold a level, summed over the levels.
+    active: usize,
+    subdivided: usize,
+    /// Pieces whose contour could not be settled.
+    unresolved: usize,
+    /// Cells of types that are not contoured.
+    skipped: usize,
+    /// Triangles with values that are not finite.
+    not_finite: usize,
+    ghosts: usize,
+    singular_pde: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Output {
+    points: usize,
+    lines: usize,
+    closed: usize,
+}
+
+/// Wall-clock seconds of each stage.
+#[derive(Debug, Default, Serialize)]
+pub struct Seconds {
+    read: f64,
+    field: f64,
+    interpolant: f64,
+    contour: f64,
+    data: f64,
+    write: f64,
+}
+
+/// What takes time.
+#[derive(Clone, Copy, Debug)]
+pub enum Step {
+    /// Reading the file.
+    Read,
+    /// A stage of the filter.
+    Filter(Stage),
+    /// Writing the output.
+    Write,
+}
+
+/// A stopwatch that changes from step to step.
+pub struct Clock {
+    seconds: Seconds,
+    step: Step,
+    since: Instant,
+}
+
+impl Clock {
+    /// A clock that begins with reading.
+    pub fn start() -> Self {
+        Self { seconds: Seconds::default(), step: Step::Read, since: Instant::now() }
+    }
+
+    /// Ends the step that is running and begins another.
+    pub fn next(&mut self, step: Step) {
+        let elapsed = self.since.elapsed().as_secs_f64();
+        let seconds = &mut self.seconds;
+        *match self.step {
+            Step::Read => &mut seconds.read,
+            Step::Filter(Stage::Field) => &mut seconds.field,
+            Step::Filter(Stage::Interpolant) => &mut seconds.interpolant,
+            Step::Filter(Stage::Contour) => &mut seconds.contour,
+            Step::Filter(Stage::Data) => &mut seconds.data,
+            Step::Write => &mut seconds.write,
+        } += elapsed;
+        (self.step, self.since) = (step, Instant::now());
+    }
+
+    /// Ends the last step.
+    pub fn stop(mut self) -> Seconds {
+        self.next(Step::Write);
+        self.seconds
+    }
+}
+
+impl Stats {
+    /// The counts of a contouring and its times.
+    pub fn new(contoured: &Contoured, seconds: Seconds) -> Self {
+        let Contoured { poly_data, lines, report, .. } = contoured;
+        let limit = |value: f64| value.is_finite().then_some(value);
+        Self {
+            array: report.label.clone(),
+            gradient: report.gradient.clone(),
+            range: report.range,
+            levels: lines.levels.clone(),
+            tolerance: limit(report.resolution.tolerance),
+            spacing: limit(report.resolution.spacing),
+            cells: Cells {
+                triangles: report.triangles,
+                active: report.counts.active,
+                subdivided: report.counts.divided,
+                unresolved: report.counts.unresolved,
+                skipped: report.skipped.total(),
+                not_finite: report.counts.unusable,
+                ghosts: report.ghosts,
+                singular_pde: report.singular,
+            },
+            output: Output {
+                points: poly_data.points.tuples(),
+                lines: poly_data.lines.len(),
+                closed: lines.lines.iter().filter(|line| line.closed).count(),
+            },
+            seconds,
+        }
+    }
+}

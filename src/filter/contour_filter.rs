@@ -1,0 +1,262 @@
+//! The contour filter: a grid with data in, contour lines with data out.
+
+use super::cell_type::CellCounts;
+use super::error::FilterError;
+use super::line_output::{LineOutput, OutputOptions};
+use super::scalars::{Component, GradientSource};
+use super::solution::{Interpolated, Solution};
+use super::triangles::Triangles;
+use crate::contour::lines::{ContourLines, Counts, Method, Resolution, contour_lines};
+use crate::contour::{CellRanges, Levels};
+use crate::interpolant::Predictor;
+use crate::vtk::{ArrayType, PolyData, UnstructuredGrid};
+
+/// Which interpolant to contour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InterpolantKind {
+    /// The pure cubic interpolant of values, gradients and PDE.
+    #[default]
+    Pci,
+    /// The linear interpolant of the values, as VTK's own filter.
+    Linear,
+}
+
+/// What to contour, and how.
+#[derive(Clone, Debug)]
+pub struct ContourOptions {
+    /// The point array; the active scalars, or the only one, if not given.
+    pub array: Option<String>,
+    /// What of it, if it has several components.
+    pub component: Option<Component>,
+    /// Where its gradient comes from.
+    pub gradient: GradientSource,
+    /// The levels.
+    pub levels: Levels,
+    /// How curves are drawn.
+    pub method: Method,
+    /// The greatest distance between neighbouring points, in units of length.
+    pub spacing: Option<f64>,
+    /// The greatest distance of a segment from the contour, in units of length.
+    /// Without this and `spacing`: [`DEFAULT_TOLERANCE`] times the diagonal.
+    pub tolerance: Option<f64>,
+    /// The interpolant.
+    pub interpolant: InterpolantKind,
+    /// The PDE as text, see [`crate::pde`].
+    pub pde: Option<String>,
+    /// Its parameters.
+    pub parameters: Vec<(String, f64)>,
+    /// Where its right-hand side takes the solution from.
+    pub predictor: Predictor,
+    /// Points of single precision; as the grid's own if not given.
+    pub single: Option<bool>,
+    /// Two-point segments instead of polylines.
+    pub segments: bool,
+    /// Put out `Gradients`.
+    pub gradients: bool,
+    /// Put out `Normals`.
+    pub normals: bool,
+}
+
+/// The default tolerance, as a part of the bounding box's diagonal: a tenth of a
+/// pixel where a picture of the mesh is ten thousand pixels wide.
+pub const DEFAULT_TOLERANCE: f64 = 1e-5;
+
+/// The least spacing or tolerance, as a part of the diagonal.
+const LEAST: f64 = 1e-6;
+
+impl Default for ContourOptions {
+    fn default() -> Self {
+        Self {
+            array: None,
+            component: None,
+            gradient: GradientSource::default(),
+            levels: Levels::Equal { count: 10, range: None },
+            method: Method::default(),
+            spacing: None,
+            tolerance: None,
+            interpolant: InterpolantKind::default(),
+            pde: None,
+            parameters: Vec::new(),
+            predictor: Predictor::default(),
+            single: None,
+            segments: false,
+            gradients: false,
+            normals: false,
+        }
+    }
+}
+
+/// What a filter is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Taking triangles, values and gradients from the grid.
+    Field,
+    /// Computing the interpolant and its range on each cell.
+    Interpolant,
+    /// Tracing the contours.
+    Contour,
+    /// Carrying the data over.
+    Data,
+}
+
+/// What was done, and what people should know about it.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// What was contoured, such as `u` or `|velocity|`.
+    pub label: String,
+    /// The gradient's array; nothing if it was recovered.
+    pub gradient: Option<String>,
+    /// How many triangles there were.
+    pub triangles: usize,
+    /// Cells of two or three dimensions that could not be contoured.
+    pub skipped: CellCounts,
+    /// Cells of another process, which are not contoured.
+    pub ghosts: usize,
+    /// Triangles in which the PDE could not be used.
+    pub singular: usize,
+    /// The least and the greatest value of the interpolant.
+    pub range: [f64; 2],
+    /// What the contouring counted.
+    pub counts: Counts,
+    /// How fine the lines are.
+    pub resolution: Resolution,
+    /// One line each.
+    pub warnings: Vec<String>,
+}
+
+/// Contour lines with everything that can be made of them.
+pub struct Contoured {
+    /// The lines as VTK's polygonal data.
+    pub poly_data: PolyData,
+    /// The lines.
+    pub lines: ContourLines,
+    /// The triangles.
+    pub triangles: Triangles,
+    /// What was done.
+    pub report: Report,
+}
+
+/// Contours a grid. `progress` is told each stage as it begins.
+///
+/// # Errors
+/// See [`FilterError`]: an array that is not there or does not fit, a PDE that
+/// cannot be read, levels that are no numbers, nothing to contour.
+pub fn contour(
+    grid: &UnstructuredGrid,
+    options: &ContourOptions,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Contoured, FilterError> {
+    progress(Stage::Field);
+    let solution = Solution::new(grid, options)?;
+    let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
+    progress(Stage::Interpolant);
+    let Interpolated { cubics, singular } = solution.interpolant(options.predictor);
+    let mut ranges = CellRanges::new(cubics.as_ref());
+    let ghosts = ranges.exclude(|triangle| solution.is_ghost(triangle));
+    let range = solution.range(&ranges, cubics.as_ref())?;
+    let levels = options.levels.resolve(range)?;
+    progress(Stage::Contour);
+    let lines = contour_lines(cubics.as_ref(), &ranges, &levels, options.method, resolution);
+    progress(Stage::Data);
+    let poly_data = LineOutput {
+        grid,
+        parents: &solution.triangles.parents,
+        chosen: &solution.chosen,
+        interpolant: cubics.as_ref(),
+        lines: &lines,
+        options: options.output(grid),
+    }
+    .poly_data();
+    drop(cubics);
+    let report = Report {
+        label: solution.chosen.label(),
+        gradient: solution.gradients.array,
+        triangles: solution.triangles.mesh.triangles().len(),
+        skipped: solution.triangles.skipped.clone(),
+        ghosts,
+        singular,
+        range,
+        counts: lines.counts,
+        resolution,
+        warnings: solution.gradients.warning.into_iter().collect(),
+    };
+    let report = report.with_warnings(&lines);
+    Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })
+}
+
+impl ContourOptions {
+    /// The limits of spacing and tolerance, on a mesh of the given diagonal.
+    fn resolution(&self, diagonal: f64) -> Result<Resolution, FilterError> {
+        let limits = [("--spacing", self.spacing), ("--tolerance", self.tolerance)];
+        for (option, value) in limits.into_iter().filter_map(|(o, v)| Some((o, v?))) {
+            if value.is_nan() || value <= 0.0 {
+                return Err(FilterError::NotPositive { option, value });
+            }
+            let least = LEAST * diagonal;
+            if value < least {
+                return Err(FilterError::TooSmall { option, value, least });
+            }
+        }
+        let default =
+            if self.spacing.is_some() { f64::INFINITY } else { DEFAULT_TOLERANCE * diagonal };
+        Ok(Resolution {
+            spacing: self.spacing.unwrap_or(f64::INFINITY),
+            tolerance: self.tolerance.unwrap_or(default),
+        })
+    }
+
+    fn output(&self, grid: &UnstructuredGrid) -> OutputOptions {
+        let as_grid = grid.points.array_type() == ArrayType::F32;
+        OutputOptions {
+            segments: self.segments,
+            single: self.single.unwrap_or(as_grid),
+            gradients: self.gradients,
+            normals: self.normals,
+        }
+    }
+}
+
+impl Report {
+    /// Adds what people should know, a line each.
+    fn with_warnings(mut self, lines: &ContourLines) -> Self {
+        let mut warn = |condition: bool, text: String| {
+            if condition {
+                self.warnings.push(text);
+            }
+        };
+        let [low, high] = self.range;
+        let outside = lines.levels.iter().filter(|&&level| level < low || level > high);
+        let outside: Vec<String> = outside.map(f64::to_string).collect();
+        let label = &self.label;
+        warn(
+            !outside.is_empty(),
+            format!(
+                "no line at {}: outside the range {low:.6} to {high:.6} of '{label}'",
+                outside.join(", ")
+            ),
+        );
+        warn(
+            lines.levels.is_empty(),
+            format!("'{label}' is {low} everywhere: there is no level inside its range"),
+        );
+        let Counts { unusable, unresolved, .. } = self.counts;
+        warn(
+            self.skipped.total() > 0,
+            format!("left out: {} (only triangles and quads are contoured)", self.skipped),
+        );
+        warn(
+            unusable > 0,
+            format!("left out: {unusable} triangles with values that are not finite numbers"),
+        );
+        warn(
+            unresolved > 0,
+            format!("{unresolved} tiny pieces could not be settled; straight lines join them"),
+        );
+        let (singular, triangles) = (self.singular, self.triangles);
+        warn(
+            singular > 0,
+            format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
+        );
+        self
+    }
+}

@@ -1,0 +1,83 @@
+//! Why a grid cannot be contoured.
+
+use thiserror::Error;
+
+use super::cell_type::CellCounts;
+use crate::contour::LevelError;
+use crate::mesh::MeshError;
+use crate::pde::PdeError;
+
+/// Why a grid cannot be contoured: one line that says what to do.
+#[derive(Clone, Debug, Error)]
+#[allow(missing_docs)] // the messages say what the fields are
+pub enum FilterError {
+    #[error("no point array '{name}'; the point arrays are {available}")]
+    NoSuchArray { name: String, available: String },
+
+    #[error(
+        "array '{name}' belongs to the cells, and contours need values at the points: convert it \
+         first, for example with ParaView's Cell Data to Point Data"
+    )]
+    CellArray { name: String },
+
+    #[error("which array? give --array NAME; the point arrays are {available}")]
+    AmbiguousArray { available: String },
+
+    #[error(
+        "there are no point arrays to contour{}",
+        if *cell_arrays { ", only cell arrays: convert one first, for example with ParaView's Cell \
+        Data to Point Data" } else { "" }
+    )]
+    NoPointArrays { cell_arrays: bool },
+
+    #[error(
+        "array '{name}' has {components} components: choose one with --component 0..{}, or its \
+         length with --component mag", components - 1
+    )]
+    NoComponent { name: String, components: usize },
+
+    #[error("array '{name}' has no component {component}, it has {components} (counted from 0)")]
+    NoSuchComponent { name: String, component: usize, components: usize },
+
+    #[error("array '{name}' holds text, not numbers")]
+    NotNumbers { name: String },
+
+    #[error(
+        "array '{name}' cannot be the gradient: it has {components} components, and {expected} \
+         are needed"
+    )]
+    GradientShape { name: String, components: usize, expected: String },
+
+    #[error("no triangle holds a finite value of '{name}': there is nothing to contour")]
+    NoValues { name: String },
+
+    #[error("nothing to contour: the grid has {cells}, and only triangles and quads are contoured")]
+    NoTriangles { cells: CellCounts },
+
+    #[error("the points do not have three coordinates each")]
+    Points,
+
+    #[error("the grid has more than 4294967295 points or cells")]
+    TooLarge,
+
+    #[error("--pde: {0}")]
+    Pde(#[from] PdeError),
+
+    #[error(transparent)]
+    Level(#[from] LevelError),
+
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+
+    #[error("{option} must be a positive number, not {value}")]
+    NotPositive { option: &'static str, value: f64 },
+
+    #[error(
+        "{option} {value} is too small: below {least:e}, a millionth of the size of the mesh, \
+         lines would have millions of points"
+    )]
+    TooSmall { option: &'static str, value: f64, least: f64 },
+
+    #[error("--pde cannot be used with the linear interpolant: leave one of them out")]
+    LinearPde,
+}

@@ -1,0 +1,109 @@
+//! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
+
+use super::contour_filter::{ContourOptions, InterpolantKind};
+use super::error::FilterError;
+use super::scalars::{ChosenArray, Gradients};
+use super::triangles::{Triangles, is_ghost};
+use crate::contour::CellRanges;
+use crate::field::Field;
+use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
+use crate::pde::Pde;
+use crate::vtk::UnstructuredGrid;
+
+/// What of a grid is contoured.
+pub struct Solution<'a> {
+    /// The grid.
+    pub grid: &'a UnstructuredGrid,
+    /// The array.
+    pub chosen: ChosenArray<'a>,
+    /// The triangles.
+    pub triangles: Triangles,
+    /// One value a point.
+    pub values: Vec<f64>,
+    /// One gradient a point; none for the linear interpolant.
+    pub gradients: Gradients,
+    interpolant: InterpolantKind,
+    /// The PDE, and the values of each array that it names.
+    equation: Option<(Pde, Vec<Vec<f64>>)>,
+}
+
+/// An interpolant, and what it could not do.
+pub struct Interpolated<'a> {
+    /// The interpolant.
+    pub cubics: Box<dyn TriangleCubics + 'a>,
+    /// Triangles in which the PDE could not be used.
+    pub singular: usize,
+}
+
+impl<'a> Solution<'a> {
+    /// Takes from a grid what the options name.
+    ///
+    /// # Errors
+    /// If an array is missing or does not fit, the PDE cannot be read, or the grid
+    /// has no triangles.
+    pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
+        let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
+        let equation = equation(grid, options)?;
+        let triangles = Triangles::of(grid)?;
+        let values = chosen.values();
+        let gradients = match options.interpolant {
+            InterpolantKind::Linear => Gradients::none(),
+            InterpolantKind::Pci => {
+                Gradients::new(grid, &triangles.mesh, &chosen, &values, &options.gradient)?
+            }
+        };
+        let interpolant = options.interpolant;
+        Ok(Self { grid, chosen, triangles, values, gradients, interpolant, equation })
+    }
+
+    /// The interpolant of the solution.
+    pub fn interpolant(&self, predictor: Predictor) -> Interpolated<'_> {
+        let mesh = &self.triangles.mesh;
+        let field = Field { values: &self.values, gradients: &self.gradients.vectors };
+        if self.interpolant == InterpolantKind::Linear {
+            let cubics = Box::new(Linear::new(mesh, &self.values));
+            return Interpolated { cubics, singular: 0 };
+        }
+        let Some((pde, arrays)) = &self.equation else {
+            return Interpolated { cubics: Box::new(Pci::new(mesh, field)), singular: 0 };
+        };
+        let pci = Pci::with_pde(mesh, field, &Equation { pde, arrays, predictor });
+        let singular = pci.singular();
+        Interpolated { cubics: Box::new(pci), singular }
+    }
+
+    /// The least and the greatest value of the interpolant.
+    ///
+    /// # Errors
+    /// If no triangle has finite values.
+    pub fn range(
+        &self,
+        ranges: &CellRanges,
+        cubics: &dyn TriangleCubics,
+    ) -> Result<[f64; 2], FilterError> {
+        let no_values = || FilterError::NoValues { name: self.chosen.label() };
+        ranges.attained(cubics).ok_or_else(no_values)
+    }
+
+    /// Whether a triangle belongs to another process.
+    pub fn is_ghost(&self, triangle: usize) -> bool {
+        is_ghost(self.grid, self.triangles.parents[triangle])
+    }
+}
+
+/// The PDE and the values of the point arrays that it names.
+fn equation(
+    grid: &UnstructuredGrid,
+    options: &ContourOptions,
+) -> Result<Option<(Pde, Vec<Vec<f64>>)>, FilterError> {
+    let Some(text) = &options.pde else { return Ok(None) };
+    if options.interpolant == InterpolantKind::Linear {
+        return Err(FilterError::LinearPde);
+    }
+    let scalars: Vec<_> = grid.point_data.iter().filter(|array| array.components == 1).collect();
+    let names: Vec<String> = scalars.iter().map(|array| array.name.clone()).collect();
+    let pde = Pde::parse(text, &options.parameters, &names)?;
+    let values = |&place: &usize| scalars[place].to_f64().unwrap_or_default();
+    let arrays = pde.used_arrays().iter().map(values).collect();
+    Ok(Some((pde, arrays)))
+}

@@ -2,7 +2,7 @@
 
 Every check runs on the committed file and, where its bytes differ, on the one that its script
 writes now. With another version of gmsh the two may have different meshes: both must be right.
-They need the packages of samples/requirements.txt, and half a minute.
+They need the packages of samples/requirements.txt, and about a minute.
 """
 
 from __future__ import annotations

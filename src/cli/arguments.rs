@@ -1,6 +1,6 @@
 //! What can be said on the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -56,7 +56,7 @@ pub struct Cli {
 
     /// Contouring, the job without a name.
     #[command(flatten)]
-    pub contour: Option<ContourArguments>,
+    pub contour: ContourArguments,
 }
 
 /// The jobs.
@@ -105,12 +105,14 @@ pub struct ScalarArguments {
 /// Arguments of `contour`.
 #[derive(Debug, Args)]
 pub struct ContourArguments {
+    // both are optional by type alone: with a subcommand they are not asked for
     /// The grid (.vtu)
-    pub input: PathBuf,
+    #[arg(required = true)]
+    input: Option<PathBuf>,
 
     /// The lines: .vtp for ParaView, VTK and pyvista, .svg for a picture
-    #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required = true)]
+    output: Option<PathBuf>,
 
     #[command(flatten)]
     pub scalars: ScalarArguments,
@@ -322,6 +324,16 @@ impl ScalarArguments {
 }
 
 impl ContourArguments {
+    /// The file to read.
+    pub fn input(&self) -> &Path {
+        self.input.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The file to write.
+    pub fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new(""))
+    }
+
     /// What the arguments ask the filter to do.
     pub fn options(&self) -> ContourOptions {
         let Self { levels, interpolant, lines, output_options, .. } = self;

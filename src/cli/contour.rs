@@ -20,7 +20,7 @@ enum Format {
 
 /// Runs the job.
 pub fn run(arguments: &ContourArguments) -> Result<()> {
-    let format = format_of(&arguments.output)?;
+    let format = format_of(arguments.output())?;
     let running = &arguments.running;
     if let Some(threads) = running.threads {
         rayon::ThreadPoolBuilder::new()
@@ -37,7 +37,7 @@ pub fn run(arguments: &ContourArguments) -> Result<()> {
 fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Result<()> {
     let mut clock = Clock::start();
     messages.stage("reading");
-    let loaded = VtuFile::open(&arguments.input)?.read(&Selection::All)?;
+    let loaded = VtuFile::open(arguments.input())?.read(&Selection::All)?;
     for warning in &loaded.warnings {
         messages.warning(warning);
     }
@@ -51,7 +51,7 @@ fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Res
         });
     };
     let contoured = contour(&loaded.data, &arguments.options(), &mut progress)
-        .map_err(|error| explained(&error, &arguments.input))?;
+        .map_err(|error| explained(&error, arguments.input()))?;
     clock.next(Step::Write);
     messages.stage("writing");
     write(arguments, format, &contoured)?;
@@ -86,10 +86,10 @@ fn write(arguments: &ContourArguments, format: Format, contoured: &Contoured) ->
     let options = &arguments.output_options;
     match format {
         Format::Vtp => {
-            write_vtp(&arguments.output, &contoured.poly_data, options.write_options())?;
+            write_vtp(arguments.output(), &contoured.poly_data, options.write_options())?;
         }
         Format::Svg => {
-            let mut file = AtomicFile::create(&arguments.output)?;
+            let mut file = AtomicFile::create(arguments.output())?;
             picture(contoured, options.mesh).write(&mut file)?;
             file.commit()?;
         }

@@ -18,20 +18,14 @@ use arguments::{Cli, Command};
 /// Runs the command line of this process.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let done = match (cli.command, cli.contour) {
-        (Some(Command::Contour(arguments)), _) | (None, Some(arguments)) => {
-            contour::run(&arguments)
-        }
-        (Some(Command::Info(arguments)), _) => info::run(&arguments),
-        (Some(Command::Completions { shell }), _) => {
+    let done = match cli.command {
+        None => contour::run(&cli.contour),
+        Some(Command::Contour(arguments)) => contour::run(&arguments),
+        Some(Command::Info(arguments)) => info::run(&arguments),
+        Some(Command::Completions { shell }) => {
             let name = env!("CARGO_PKG_NAME");
             clap_complete::generate(shell, &mut Cli::command(), name, &mut std::io::stdout());
             Ok(())
-        }
-        (None, None) => {
-            // without a file there is nothing to do but to explain
-            let _ = Cli::command().print_help();
-            return ExitCode::from(2);
         }
     };
     match done {

@@ -55,7 +55,7 @@ impl Picture {
              <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
             escaped(&self.title)
         )?;
-        self.write_straight(&mut out, &view, &self.mesh, "#e4e4e4", 0.6)?;
+        self.write_straight(&mut out, &view, &self.mesh, "#dcdcdc", 0.6)?;
         self.write_straight(&mut out, &view, &self.outline, "#888", 1.0)?;
         self.write_lines(&mut out, &view)?;
         self.write_bar(&mut out, width, height)?;

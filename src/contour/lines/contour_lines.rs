@@ -71,6 +71,8 @@ pub struct ContourLines {
     /// Bézier pieces, line after line, in the lines' directions. Their ends lie
     /// on the contour; between, they are as near as the method brings them.
     pub curves: Vec<Bezier>,
+    /// The cell of each Bézier piece.
+    pub curve_cells: Vec<u32>,
     /// What was done.
     pub counts: Counts,
 }
@@ -302,6 +304,7 @@ impl LineBuilder<'_> {
         let first_curve = lines.curves.len();
         for link in &chain.links {
             let curves = traces.curves_of(link.strand).iter();
+            lines.curve_cells.extend(curves.clone().map(|_| traces.strands[link.strand].cell));
             if link.backwards {
                 lines.curves.extend(curves.rev().map(Bezier::reversed));
             } else {

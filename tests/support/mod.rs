@@ -4,3 +4,4 @@
 pub mod brute_force;
 pub mod meshes;
 pub mod problem4;
+pub mod table_5_7;

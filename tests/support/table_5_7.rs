@@ -19,7 +19,7 @@ use vtu2contour::mesh::TriangleMesh;
 use vtu2contour::pde::Pde;
 use vtu2contour::vtk::{Selection, VtuFile};
 
-use crate::problem4;
+use super::problem4;
 
 /// Points, and the thesis' errors of Intercept, SODE, ODEA and AODEA.
 const THESIS: [(usize, [f64; 4]); 3] = [
@@ -39,24 +39,41 @@ const METHODS: [(&str, Method); 4] = [
 /// more give the same mean with less chance in it.)
 const SAMPLES: usize = 16;
 
-pub fn print() {
-    println!("Table 5.7: average error of the contours of problem 4");
-    println!();
-    println!("| points | method | thesis | ours | ours, thesis' predictor | points of the .vtp |");
-    println!("|---|---|---|---|---|---|");
+/// One row of the table: errors of one method on one mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Points of the mesh.
+    pub points: usize,
+    /// The method.
+    pub method: &'static str,
+    /// The thesis' error.
+    pub thesis: f64,
+    /// Ours.
+    pub ours: f64,
+    /// Ours with the thesis' predictor, the linear one.
+    pub linear_predictor: f64,
+    /// The mean error of the points that are written to a file.
+    pub of_points: f64,
+}
+
+/// The table.
+pub fn rows() -> Vec<Row> {
+    let mut rows = Vec::new();
     for (points, thesis) in THESIS {
         let mesh = mesh(points);
         for ((name, method), thesis) in METHODS.iter().zip(thesis) {
-            let lines = |predictor| contour(&mesh, predictor, *method);
-            let ours = lines(Predictor::Quadratic);
-            println!(
-                "| {points} | {name} | {thesis:.2e} | {:.2e} | {:.2e} | {:.2e} |",
-                curve_error(&ours),
-                curve_error(&lines(Predictor::Linear)),
-                point_error(&ours),
-            );
+            let lines = contour(&mesh, Predictor::Quadratic, *method);
+            rows.push(Row {
+                points,
+                method: name,
+                thesis,
+                ours: curve_error(&lines),
+                linear_predictor: curve_error(&contour(&mesh, Predictor::Linear, *method)),
+                of_points: point_error(&lines),
+            });
         }
     }
+    rows
 }
 
 fn mesh(points: usize) -> TriangleMesh {

@@ -1,0 +1,365 @@
+//! The command line: what it writes, what it says, how it ends.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+use vtu2contour::vtk::{
+    DataArray, Selection, UnstructuredGrid, Values, VtpFile, VtuFile, write_vtu,
+};
+
+/// A folder for a test's files, and the program run in it.
+struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().unwrap() }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        let program = env!("CARGO_BIN_EXE_vtu2contour");
+        Command::new(program).args(arguments).current_dir(self.folder.path()).output().unwrap()
+    }
+
+    /// Runs a job that must succeed; returns what it said.
+    fn succeed(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{arguments:?} failed: {said}");
+        said
+    }
+
+    /// Runs a job that must fail with the given exit code; returns what it said.
+    fn fail(&self, code: i32, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(!said.contains("panicked"), "{said}");
+        assert!(!self.path("out.vtp").exists(), "{arguments:?} left a file");
+        said
+    }
+
+    /// A unit square of 8 triangles with the given arrays, as `in.vtu`.
+    fn write_grid(&self, point_arrays: Vec<DataArray>, cell_arrays: Vec<DataArray>) {
+        let mut grid = square();
+        point_arrays.into_iter().for_each(|array| grid.point_data.push(array));
+        cell_arrays.into_iter().for_each(|array| grid.cell_data.push(array));
+        write_vtu(self.path("in.vtu"), &grid, Default::default()).unwrap();
+    }
+}
+
+/// The unit square as 2 by 2 squares of two triangles.
+fn square() -> UnstructuredGrid {
+    let coordinates: Vec<f64> =
+        (0..9).flat_map(|n| [f64::from(n % 3) / 2.0, f64::from(n / 3) / 2.0, 0.0]).collect();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
+    for corner in [0_i64, 1, 3, 4] {
+        grid.push_cell(5, &[corner, corner + 1, corner + 4]);
+        grid.push_cell(5, &[corner, corner + 4, corner + 3]);
+    }
+    grid
+}
+
+fn u() -> DataArray {
+    DataArray::new("u", 1, (0..9).map(|n| f64::from(n % 3)).collect::<Vec<f64>>())
+}
+
+fn samples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("samples")
+}
+
+fn sample(name: &str) -> String {
+    samples().join(name).to_str().unwrap().to_owned()
+}
+
+fn read_lines(path: &Path) -> vtu2contour::vtk::PolyData {
+    VtpFile::open(path).unwrap().read(&Selection::All).unwrap().data
+}
+
+#[test]
+fn lines_follow_the_conventions_of_vtk() {
+    let bench = Bench::new();
+    let input = sample("problem4.vtu");
+    bench.succeed(&[
+        &input,
+        "-o",
+        "out.vtp",
+        "-v",
+        "0.3,0.9",
+        "-v",
+        "1.5",
+        "--gradients",
+        "--normals",
+    ]);
+    let lines = read_lines(&bench.path("out.vtp"));
+    let values = lines.point_data.get("u").unwrap().to_f64().unwrap();
+    assert!(values.iter().all(|v| [0.3, 0.9, 1.5].contains(v)));
+    let active = lines.point_data.active(vtu2contour::vtk::AttributeKind::Scalars);
+    assert_eq!(active.unwrap().name, "u");
+    for name in ["gradient", "laplacian", "OriginalCellIds", "Gradients", "Normals"] {
+        assert!(lines.point_data.get(name).is_some(), "no {name}");
+    }
+    // cell data are the parents' own
+    let grid = VtuFile::open(&input).unwrap().read(&Selection::All).unwrap().data;
+    let parents = lines.cell_data.get("OriginalCellIds").unwrap().to_f64().unwrap();
+    for name in ["area", "region"] {
+        let theirs = grid.cell_data.get(name).unwrap().to_f64().unwrap();
+        let ours = lines.cell_data.get(name).unwrap().to_f64().unwrap();
+        assert_eq!(ours.len(), lines.lines.len());
+        assert!(ours.iter().zip(&parents).all(|(value, &cell)| *value == theirs[cell as usize]));
+    }
+    assert_eq!(lines.field_data.get("TimeValue"), grid.field_data.get("TimeValue"));
+    // closed lines return to their first point
+    let closed = lines.lines.iter().filter(|line| line.first() == line.last()).count();
+    assert!(closed > 0);
+}
+
+#[test]
+fn segments_have_the_data_of_their_own_cells() {
+    let bench = Bench::new();
+    let input = sample("problem4.vtu");
+    bench.succeed(&[&input, "-o", "lines.vtp", "-v", "0.9"]);
+    bench.succeed(&[&input, "-o", "segments.vtp", "-v", "0.9", "--segments"]);
+    let (lines, segments) =
+        (read_lines(&bench.path("lines.vtp")), read_lines(&bench.path("segments.vtp")));
+    let count: usize = lines.lines.iter().map(|line| line.len() - 1).sum();
+    assert_eq!(segments.lines.len(), count);
+    assert!(segments.lines.iter().all(|segment| segment.len() == 2));
+    let grid = VtuFile::open(&input).unwrap().read(&Selection::All).unwrap().data;
+    let points = segments.points.to_f64().unwrap();
+    let corners = grid.points.to_f64().unwrap();
+    let parents = segments.cell_data.get("OriginalCellIds").unwrap().to_f64().unwrap();
+    for (segment, parent) in segments.lines.iter().zip(parents) {
+        let middle = [0, 1].map(|n| {
+            segment.iter().map(|&point| points[3 * point as usize + n]).sum::<f64>() / 2.0
+        });
+        let cell = grid.cells.get(parent as usize).unwrap();
+        let corner = |n: usize| [0, 1].map(|axis| corners[3 * cell[n] as usize + axis]);
+        assert!(is_inside(middle, [corner(0), corner(1), corner(2)]));
+    }
+}
+
+/// Whether a point lies in a triangle, give or take rounding.
+fn is_inside(p: [f64; 2], corners: [[f64; 2]; 3]) -> bool {
+    let side =
+        |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    let [a, b, c] = corners;
+    let sides = [side(a, b), side(b, c), side(c, a)];
+    sides.iter().all(|s| *s > -1e-6) || sides.iter().all(|s| *s < 1e-6)
+}
+
+#[test]
+fn precision_follows_the_input_or_the_option() {
+    let bench = Bench::new();
+    let single = sample("no_gradient.vtu");
+    let is_single =
+        |name: &str| matches!(read_lines(&bench.path(name)).points.values, Values::F32(_));
+    bench.succeed(&[&single, "-o", "as_input.vtp"]);
+    bench.succeed(&[&single, "-o", "double.vtp", "--double"]);
+    bench.succeed(&[&sample("problem4.vtu"), "-o", "single.vtp", "--single"]);
+    assert!(is_single("as_input.vtp") && !is_single("double.vtp") && is_single("single.vtp"));
+}
+
+#[test]
+fn threads_do_not_change_the_bytes() {
+    let bench = Bench::new();
+    let input = sample("islands.vtu");
+    for (name, threads) in [("one.vtp", "1"), ("two.vtp", "2"), ("seven.vtp", "7")] {
+        bench.succeed(&[&input, "-o", name, "-n", "21", "--threads", threads]);
+    }
+    let bytes = |name: &str| std::fs::read(bench.path(name)).unwrap();
+    assert_eq!(bytes("one.vtp"), bytes("two.vtp"));
+    assert_eq!(bytes("one.vtp"), bytes("seven.vtp"));
+}
+
+#[test]
+fn every_encoding_holds_the_same_lines() {
+    let bench = Bench::new();
+    let input = sample("problem4.vtu");
+    bench.succeed(&[&input, "-o", "raw.vtp"]);
+    let raw = read_lines(&bench.path("raw.vtp"));
+    for encoding in ["zlib", "lz4", "base64", "ascii"] {
+        bench.succeed(&[&input, "-o", "other.vtp", "--encoding", encoding]);
+        assert_eq!(read_lines(&bench.path("other.vtp")), raw, "{encoding}");
+    }
+}
+
+#[test]
+fn pictures_hold_one_path_a_line() {
+    let bench = Bench::new();
+    let input = sample("islands.vtu");
+    bench.succeed(&[&input, "-o", "out.vtp", "-n", "5"]);
+    bench.succeed(&[&input, "-o", "out.svg", "-n", "5"]);
+    let lines = read_lines(&bench.path("out.vtp")).lines.len();
+    let picture = std::fs::read_to_string(bench.path("out.svg")).unwrap();
+    assert_eq!(picture.matches("\n<path d=").count(), lines);
+    assert!(picture.len() < 100_000, "{} bytes", picture.len());
+}
+
+#[test]
+fn stats_are_json() {
+    let bench = Bench::new();
+    bench.succeed(&[&sample("problem4.vtu"), "-o", "out.vtp", "--stats", "stats.json"]);
+    let text = std::fs::read_to_string(bench.path("stats.json")).unwrap();
+    let stats: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(stats["cells"]["triangles"], 734);
+    assert_eq!(stats["cells"]["unresolved"], 0);
+    assert_eq!(stats["gradient"], "gradient");
+    assert_eq!(stats["levels"].as_array().unwrap().len(), 10);
+    assert!(stats["seconds"]["contour"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn info_tells_what_would_be_contoured() {
+    let bench = Bench::new();
+    let output = bench.run(&["info", &sample("problem4.vtu")]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for part in ["404 points, 734 cells (734 triangles)", "active Scalars", "gradient  gradient"] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+    // a file without anything to contour is still described
+    bench.write_grid(vec![], vec![DataArray::new("c", 1, vec![1.0; 8])]);
+    let output = bench.run(&["info", "in.vtu"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && text.contains("no point arrays to contour"), "{text}");
+}
+
+#[test]
+fn help_teaches() {
+    let bench = Bench::new();
+    for arguments in [vec!["--help"], vec!["contour", "--help"]] {
+        let output = bench.run(&arguments);
+        assert!(output.status.success());
+        let text = String::from_utf8(output.stdout).unwrap();
+        for option in ["--array", "--gradient", "--pde", "--tolerance", "--range", "--stats"] {
+            assert!(text.contains(option), "no {option} in {arguments:?}");
+        }
+    }
+    let text = String::from_utf8(bench.run(&["--help"]).stdout).unwrap();
+    assert!(text.contains("Examples:") && text.contains("--param k=20"));
+}
+
+#[test]
+fn a_wrong_gradient_is_not_used_in_silence() {
+    let bench = Bench::new();
+    let wrong = DataArray::new("gradient", 3, vec![7.0; 27]);
+    bench.write_grid(vec![u(), wrong], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-a", "u"]);
+    assert!(said.contains("'gradient' is not used as the gradient of 'u'"), "{said}");
+    std::fs::remove_file(bench.path("out.vtp")).unwrap();
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-a", "u", "-g", "gradient"]);
+    assert!(said.contains("does not look like the gradient"), "{said}");
+}
+
+#[test]
+fn warnings_where_users_of_vtk_expect_output() {
+    let bench = Bench::new();
+    let mut values: Vec<f64> = (0..9).map(|n| f64::from(n % 3)).collect();
+    bench.write_grid(vec![u()], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5,-1,1.5"]);
+    assert!(said.contains("no line at -1, 5: outside the range 0"), "{said}");
+    assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 1);
+    assert_eq!(bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5", "-q"]), "");
+    assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 0);
+    values[8] = f64::NAN;
+    bench.write_grid(vec![DataArray::new("u", 1, values)], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "0.5"]);
+    assert!(said.contains("left out: 2 triangles with values that are not finite"), "{said}");
+    bench.write_grid(vec![u()], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "--pde", "uxx - uyy = 0"]);
+    assert!(said.contains("the PDE does not determine the cubic in 8 of 8 triangles"), "{said}");
+    bench.write_grid(vec![DataArray::new("u", 1, vec![2.0; 9])], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp"]);
+    assert!(said.contains("'u' is 2 everywhere"), "{said}");
+}
+
+#[test]
+fn bad_input_is_one_clear_line() {
+    let bench = Bench::new();
+    let cases: [(&[&str], &str); 13] = [
+        (&["no.vtu", "-o", "out.vtp"], "cannot read 'no.vtu'"),
+        (
+            &["in.vtu", "-o", "out.vtp", "-a", "w"],
+            "no point array 'w'; the point arrays are 'u', 'v', 'text'",
+        ),
+        (&["in.vtu", "-o", "out.vtp", "-a", "c"], "array 'c' belongs to the cells"),
+        (&["in.vtu", "-o", "out.vtp", "-a", "text"], "holds text, not numbers"),
+        (&["in.vtu", "-o", "out.vtp", "-a", "v"], "choose one with --component 0..2"),
+        (&["in.vtu", "-o", "out.vtp", "-a", "v", "--component", "3"], "has no component 3"),
+        (&["in.vtu", "-o", "out.vtp", "-g", "none"], "no point array 'none'"),
+        (&["in.vtu", "-o", "out.vtp", "-g", "two"], "no point array 'two'"),
+        (&["in.vtu", "-o", "out.vtp", "--pde", "uxx + = 1"], "--pde: character 7"),
+        (&["in.vtu", "-o", "out.vtp", "--pde", "uxx = w"], "w"),
+        (&["in.vtu", "-o", "out.vtp", "--tolerance", "1e-30"], "too small"),
+        (&["in.vtu", "-o", "out.txt"], "must end in .vtp (lines) or .svg (a picture)"),
+        (&["in.vtu", "-o", "nowhere/out.vtp"], "nowhere"),
+    ];
+    let text = ["a"; 9].map(String::from).to_vec();
+    let vector = DataArray::new("v", 3, vec![1.0; 27]);
+    let arrays = vec![u(), vector, DataArray::new("text", 1, text)];
+    bench.write_grid(arrays, vec![DataArray::new("c", 1, vec![1.0; 8])]);
+    for (arguments, expected) in cases {
+        let said = bench.fail(1, arguments);
+        assert!(said.contains(expected), "{arguments:?} said {said}");
+        let first = said.lines().next().unwrap();
+        assert!(first.starts_with("vtu2contour: error: "), "{said}");
+        let lines = if expected.starts_with("--pde") || expected == "w" { 3 } else { 1 };
+        assert_eq!(said.lines().count(), lines, "{said}");
+    }
+}
+
+#[test]
+fn grids_that_cannot_be_contoured_are_named() {
+    let bench = Bench::new();
+    let mut tetrahedron = UnstructuredGrid::new(DataArray::new("Points", 3, vec![0.0; 12]));
+    tetrahedron.push_cell(10, &[0, 1, 2, 3]);
+    tetrahedron.point_data.push(DataArray::new("u", 1, vec![0.0; 4]));
+    write_vtu(bench.path("in.vtu"), &tetrahedron, Default::default()).unwrap();
+    let said = bench.fail(1, &["in.vtu", "-o", "out.vtp"]);
+    assert!(said.contains("the grid has 1 tetrahedra"), "{said}");
+    bench.write_grid(vec![], vec![DataArray::new("c", 1, vec![1.0; 8])]);
+    let said = bench.fail(1, &["in.vtu", "-o", "out.vtp"]);
+    assert!(said.contains("only cell arrays: convert one first"), "{said}");
+    bench.write_grid(vec![DataArray::new("u", 1, vec![f64::NAN; 9])], vec![]);
+    let said = bench.fail(1, &["in.vtu", "-o", "out.vtp"]);
+    assert!(said.contains("no triangle holds a finite value"), "{said}");
+    bench.write_grid(vec![u(), DataArray::new("w", 1, vec![1.0; 9])], vec![]);
+    let said = bench.fail(1, &["in.vtu", "-o", "out.vtp"]);
+    assert!(
+        said.contains("which array? give --array NAME; the point arrays are 'u', 'w'"),
+        "{said}"
+    );
+}
+
+#[test]
+fn wrong_usage_exits_with_2() {
+    let bench = Bench::new();
+    let cases: [&[&str]; 9] = [
+        &[],
+        &["in.vtu"],
+        &["in.vtu", "-o", "out.vtp", "-v", "x"],
+        &["in.vtu", "-o", "out.vtp", "-v", "inf"],
+        &["in.vtu", "-o", "out.vtp", "-n", "0"],
+        &["in.vtu", "-o", "out.vtp", "--range", "2,1"],
+        &["in.vtu", "-o", "out.vtp", "--spacing", "-1"],
+        &["in.vtu", "-o", "out.vtp", "--param", "k"],
+        &["in.vtu", "-o", "out.vtp", "--method", "magic"],
+    ];
+    for arguments in cases {
+        bench.fail(2, arguments);
+    }
+}
+
+#[test]
+fn a_file_that_is_there_is_kept_when_the_job_fails() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("old.vtp"), "old").unwrap();
+    bench.fail(1, &["no.vtu", "-o", "old.vtp"]);
+    assert_eq!(std::fs::read(bench.path("old.vtp")).unwrap(), b"old");
+}

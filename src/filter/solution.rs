@@ -23,8 +23,13 @@ pub struct Solution<'a> {
     /// One gradient a point; none for the linear interpolant.
     pub gradients: Gradients,
     interpolant: InterpolantKind,
-    /// The PDE, and the values of each array that it names.
-    equation: Option<(Pde, Vec<Vec<f64>>)>,
+    equation: Option<KnownPde>,
+}
+
+/// A PDE, and the values of each point array that it names.
+struct KnownPde {
+    pde: Pde,
+    arrays: Vec<Vec<f64>>,
 }
 
 /// An interpolant, and what it could not do.
@@ -64,7 +69,7 @@ impl<'a> Solution<'a> {
             let cubics = Box::new(Linear::new(mesh, &self.values));
             return Interpolated { cubics, singular: 0 };
         }
-        let Some((pde, arrays)) = &self.equation else {
+        let Some(KnownPde { pde, arrays }) = &self.equation else {
             return Interpolated { cubics: Box::new(Pci::new(mesh, field)), singular: 0 };
         };
         let pci = Pci::with_pde(mesh, field, &Equation { pde, arrays, predictor });
@@ -95,7 +100,7 @@ impl<'a> Solution<'a> {
 fn equation(
     grid: &UnstructuredGrid,
     options: &ContourOptions,
-) -> Result<Option<(Pde, Vec<Vec<f64>>)>, FilterError> {
+) -> Result<Option<KnownPde>, FilterError> {
     let Some(text) = &options.pde else { return Ok(None) };
     if options.interpolant == InterpolantKind::Linear {
         return Err(FilterError::LinearPde);
@@ -105,5 +110,5 @@ fn equation(
     let pde = Pde::parse(text, &options.parameters, &names)?;
     let values = |&place: &usize| scalars[place].to_f64().unwrap_or_default();
     let arrays = pde.used_arrays().iter().map(values).collect();
-    Ok(Some((pde, arrays)))
+    Ok(Some(KnownPde { pde, arrays }))
 }

@@ -34,9 +34,7 @@ impl<'a> JoinedSection<'a> {
             arrays: Vec::new(),
             active: Vec::new(),
             unusable: Vec::new(),
-            repeated: sections
-                .first()
-                .map_or(Vec::new(), |s| s.repeated.clone()),
+            repeated: sections.first().map_or(Vec::new(), |s| s.repeated.clone()),
             named: false,
         };
         let Some(model) = model else {

@@ -101,7 +101,8 @@ impl Parser<'_> {
         let before = self.position();
         let event = self.reader.read_event().map_err(|error| {
             let offset = self.reader.error_position() + self.start as u64;
-            self.syntax_error(offset, &error, bytes)
+            // The reader gives no place for text that is not UTF-8.
+            self.syntax_error(offset.max(before as u64), &error, bytes)
         })?;
         match event {
             Event::Start(tag) => return self.open_tag(&tag, true),

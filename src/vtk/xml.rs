@@ -270,11 +270,9 @@ impl<'a> Node<'a> {
         let mut attributes = Attributes::new(self.slice(|element| element.attributes.clone()), 0);
         attributes.with_checks(false);
         attributes.filter_map(Result::ok).map(|attribute| {
-            let value = match attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0) {
-                Ok(value) => Cow::Owned(value.into_owned()),
-                // VTK 9.7 itself writes '&' in names as it stands.
-                Err(_) => attribute.value,
-            };
+            let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+            // VTK 9.7 itself writes '&' in names as it stands.
+            let value = value.unwrap_or(attribute.value);
             (attribute.key.into_inner(), value)
         })
     }

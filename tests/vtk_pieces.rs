@@ -1,6 +1,6 @@
 //! Files of several pieces, joined; written by hand.
 
-use vtu2contour::vtk::{Selection, VtkError, VtpFile, VtuFile};
+use vtu2contour::vtk::{Selection, UnstructuredGrid, VtkError, VtpFile, VtuFile};
 
 fn array(kind: &str, name: &str, components: usize, values: &str) -> String {
     format!(
@@ -144,4 +144,69 @@ fn unknown_types_and_formats_are_named() {
         error.to_string().contains("unknown format 'morse'"),
         "{error}"
     );
+}
+
+/// The faces of a tetrahedron, as VTK writes them before 9.4 and after.
+fn face_arrays(new_form: bool, point: i64) -> String {
+    if new_form {
+        let points = format!("0 2 1 0 1 3 1 2 3 0 3 {point}");
+        return [
+            array("Int64", "face_connectivity", 1, &points),
+            array("Int64", "face_offsets", 1, "3 6 9 12"),
+            array("Int64", "polyhedron_to_faces", 1, "0 1 2 3"),
+            array("Int64", "polyhedron_offsets", 1, "0 4"),
+        ]
+        .concat();
+    }
+    let stream = format!("4 3 0 2 1 3 0 1 3 3 1 2 3 3 0 3 {point}");
+    [
+        array("Int64", "faces", 1, &stream),
+        array("Int64", "faceoffsets", 1, "-1 17"),
+    ]
+    .concat()
+}
+
+/// Two pieces of a tetrahedron and a polyhedron each; and one without polyhedra between.
+fn polyhedra(new_form: bool, point: i64) -> Result<UnstructuredGrid, VtkError> {
+    let piece = |cells: &str, faces: &str| {
+        let points = points("0 0 0 1 0 0 0 1 0 0 0 1");
+        let cells = cells.replace("</Cells>", faces) + "</Cells>";
+        format!("<Piece NumberOfPoints='4' NumberOfCells='2'>{points}{cells}</Piece>")
+    };
+    let lists = cells("Cells", "0 1 2 3 0 1 2 3", "4 8");
+    let with = array("UInt8", "types", 1, "10 42") + &face_arrays(new_form, point);
+    let without = array("UInt8", "types", 1, "10 10");
+    let pieces = [
+        piece(&lists, &with),
+        piece(&lists, &without),
+        piece(&lists, &with),
+    ]
+    .concat();
+    let text = format!(
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>{pieces}</UnstructuredGrid></VTKFile>"
+    );
+    let file = VtuFile::from_bytes("x.vtu", text.into_bytes())?;
+    file.read(&Selection::All).map(|loaded| loaded.data)
+}
+
+#[test]
+fn both_forms_of_polyhedra_are_joined() {
+    for new_form in [false, true] {
+        let polyhedra = polyhedra(new_form, 2).unwrap().polyhedra.unwrap();
+        assert_eq!(polyhedra.cells.offsets(), [0, 0, 4, 4, 4, 4, 8]);
+        assert_eq!(polyhedra.cells.connectivity(), [0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(polyhedra.faces.len(), 8);
+        assert_eq!(polyhedra.faces.get(3), Some(&[0i64, 3, 2][..]));
+        assert_eq!(polyhedra.faces.get(7), Some(&[8i64, 11, 10][..]));
+    }
+}
+
+#[test]
+fn faces_of_points_that_are_not_there_are_refused() {
+    for new_form in [false, true] {
+        for point in [4, -1] {
+            let message = polyhedra(new_form, point).unwrap_err().to_string();
+            assert!(message.contains("outside 0..4"), "{message}");
+        }
+    }
 }

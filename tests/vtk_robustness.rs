@@ -1,11 +1,14 @@
 //! Cut, corrupted and forged files: an error or sane data, never a panic, a hang, or more
 //! memory than the file accounts for.
 
+#[path = "vtk_common/counting.rs"]
+mod counting;
+#[path = "vtk_common/mutation.rs"]
+mod mutation;
 mod vtk_common;
 
-use std::alloc::{GlobalAlloc, Layout, System};
+use mutation::{Random, mutate};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use vtk_common::{Compressor, Format, Variant, sample, variants};
@@ -13,51 +16,6 @@ use vtu2contour::vtk::{
     Encoding, Loaded, PolyData, Selection, UnstructuredGrid, VtkError, VtpFile, VtuFile,
     write_vtp_to, write_vtu_to,
 };
-
-// --- Counting memory ----------------------------------------------------------------
-
-struct Counting;
-
-static USED: AtomicUsize = AtomicUsize::new(0);
-static PEAK: AtomicUsize = AtomicUsize::new(0);
-
-fn add(bytes: usize) {
-    let used = USED.fetch_add(bytes, Ordering::Relaxed) + bytes;
-    PEAK.fetch_max(used, Ordering::Relaxed);
-}
-
-#[allow(
-    unsafe_code,
-    reason = "counting allocations takes an allocator, and that trait is unsafe"
-)]
-// SAFETY: every call is handed to the system's allocator as it is.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        add(layout.size());
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        add(layout.size());
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        USED.fetch_sub(layout.size(), Ordering::Relaxed);
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // Counted as if both were there at once, which they may be.
-        add(size);
-        let result = unsafe { System.realloc(pointer, layout, size) };
-        USED.fetch_sub(layout.size(), Ordering::Relaxed);
-        result
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Memory is counted for the whole process, so only one test runs at a time.
 fn alone() -> MutexGuard<'static, ()> {
@@ -89,14 +47,13 @@ impl Sample {
 /// writer refuses data whose lengths or indices contradict each other.
 fn read(name: &str, bytes: Vec<u8>, is_poly_data: bool) -> Result<(), VtkError> {
     let size = bytes.len();
-    let before = USED.load(Ordering::Relaxed);
-    PEAK.store(before, Ordering::Relaxed);
+    let before = counting::begin();
     let start = Instant::now();
     let result = match is_poly_data {
         true => read_poly_data(bytes).map(|data| write_vtp_to(std::io::sink(), &data, RAW.into())),
         false => read_grid(bytes).map(|grid| write_vtu_to(std::io::sink(), &grid, RAW.into())),
     };
-    let taken = PEAK.load(Ordering::Relaxed).saturating_sub(before);
+    let taken = counting::peak().saturating_sub(before);
     assert!(
         taken <= 4 * size + SLACK,
         "{name}: {taken} bytes for {size}"
@@ -236,135 +193,6 @@ fn cut_files_are_refused_wherever_they_are_cut() {
 
 // --- Mutations ----------------------------------------------------------------------
 
-/// Xorshift: the same mutations in every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    fn below(&mut self, bound: usize) -> usize {
-        (self.next() % bound.max(1) as u64) as usize
-    }
-
-    fn pick<'a, T: ?Sized>(&mut self, items: &[&'a T]) -> &'a T {
-        items[self.below(items.len())]
-    }
-}
-
-const NUMBERS: [&str; 10] = [
-    "0",
-    "-1",
-    "1",
-    "7",
-    "4294967295",
-    "4294967296",
-    "1000000000000000",
-    "9223372036854775807",
-    "18446744073709551615",
-    "99999999999999999999999",
-];
-
-const WORDS: [&str; 22] = [
-    "Int8",
-    "UInt64",
-    "Float32",
-    "Float64",
-    "String",
-    "Bit",
-    "ascii",
-    "binary",
-    "appended",
-    "raw",
-    "base64",
-    "UInt32",
-    "LittleEndian",
-    "BigEndian",
-    "vtkZLibDataCompressor",
-    "vtkLZ4DataCompressor",
-    "vtkLZMADataCompressor",
-    "connectivity",
-    "offsets",
-    "types",
-    "faces",
-    "Points",
-];
-
-fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
-    if bytes.is_empty() {
-        return;
-    }
-    let at = random.below(bytes.len());
-    match random.below(8) {
-        0 => bytes[at] ^= 1 << random.below(8),
-        1 => bytes[at] = random.next() as u8,
-        2 => bytes.insert(at, random.next() as u8),
-        3 => drop(bytes.drain(at..(at + 1 + random.below(9)).min(bytes.len()))),
-        4 => replace_number(bytes, at, random.pick(&NUMBERS)),
-        5 => replace_word(bytes, at, random),
-        6 => overwrite(bytes, at, random),
-        _ => repeat(bytes, at, random),
-    }
-}
-
-/// Replaces the next digits by another number.
-fn replace_number(bytes: &mut Vec<u8>, at: usize, number: &str) {
-    let is_digit = u8::is_ascii_digit;
-    let Some(start) = bytes[at..].iter().position(is_digit).map(|p| at + p) else {
-        return;
-    };
-    let digits = bytes[start..]
-        .iter()
-        .take_while(|byte| is_digit(byte))
-        .count();
-    bytes.splice(start..start + digits, number.bytes());
-}
-
-/// Replaces the next word between quotes that is one of the format's by another.
-fn replace_word(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
-    let found = (at..bytes.len()).find_map(|start| {
-        let rest = &bytes[start..];
-        let word = WORDS
-            .iter()
-            .find(|word| rest.starts_with(word.as_bytes()))?;
-        Some(start..start + word.len())
-    });
-    if let Some(range) = found {
-        bytes.splice(range, random.pick(&WORDS).bytes());
-    }
-}
-
-/// Overwrites a word of a header or of data by an extreme one.
-fn overwrite(bytes: &mut [u8], at: usize, random: &mut Random) {
-    let value = [
-        0,
-        1,
-        u64::MAX,
-        1 << 60,
-        i64::MAX as u64,
-        u64::from(u32::MAX),
-    ][random.below(6)];
-    let value = match random.below(2) {
-        0 => value.to_le_bytes(),
-        _ => value.to_be_bytes(),
-    };
-    let width = [4, 8][random.below(2)];
-    for (byte, new) in bytes[at..].iter_mut().zip(&value[..width]) {
-        *byte = *new;
-    }
-}
-
-fn repeat(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
-    let end = (at + random.below(200)).min(bytes.len());
-    let part = bytes[at..end].to_vec();
-    let place = random.below(bytes.len());
-    bytes.splice(place..place, part);
-}
-
 /// A number from the environment, for longer hunts than a test run allows.
 fn setting(name: &str, usual: usize) -> usize {
     let value = std::env::var(name).ok();
@@ -376,7 +204,7 @@ fn mutated_files_do_no_harm() {
     let _guard = alone();
     let samples = samples();
     let runs = setting("VTK_MUTATIONS", 20_000);
-    let mut random = Random(setting("VTK_SEED", 1) as u64 * 0x9E37_79B9_7F4A_7C15);
+    let mut random = Random::new(setting("VTK_SEED", 1) as u64);
     let mut refused = 0;
     for run in 0..runs {
         let sample = &samples[run % samples.len()];

@@ -3,7 +3,7 @@
 use super::array_head::ArrayHead;
 use super::attributes::{AttributeKind, Attributes};
 use super::data_array::DataArray;
-use super::error::{ArrayError, VtkError};
+use super::error::{ArrayError, VtkError, line};
 use super::joined_array::{JoinedArray, OpenArray};
 use super::section::Section;
 use super::xml_file::{Budget, XmlFile};
@@ -72,13 +72,17 @@ impl<'a> JoinedSection<'a> {
     /// One line for each array that is not read as the file has it.
     pub(super) fn warnings(&self) -> Vec<String> {
         let label = self.label;
-        let unusable = self.unusable.iter();
-        let left_out =
-            unusable.map(|(name, why)| format!("{label} array '{name}' left out: {why}"));
-        let repeated = self.repeated.iter();
-        let repeated =
-            repeated.map(|name| format!("{label} has several arrays '{name}': the first is taken"));
-        left_out.chain(repeated).collect()
+        let left_out = |(name, why): &(String, String)| {
+            format!("{label} array '{}' left out: {why}", line(name))
+        };
+        let repeated = |name: &String| {
+            format!(
+                "{label} has several arrays '{}': the first is taken",
+                line(name)
+            )
+        };
+        let left_out = self.unusable.iter().map(left_out);
+        left_out.chain(self.repeated.iter().map(repeated)).collect()
     }
 
     /// Keeps the arrays of these names, all for `None`.

@@ -166,6 +166,15 @@ mod tests {
     }
 
     #[test]
+    fn runs_padded_too_early_are_refused() {
+        // The group that the skip cuts holds one byte, not the three that are due.
+        for chars in [&b"QQ=="[..], b"QQ==QUJD"] {
+            let mut dest = vec![0; chars.len() / 4 * 3 - 1];
+            assert!(decode_into(chars, 1, &mut dest, 0).is_err());
+        }
+    }
+
+    #[test]
     fn pieces_make_one_run() {
         let bytes: Vec<u8> = (0..=255).collect();
         for step in 1..=9 {

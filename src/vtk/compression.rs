@@ -171,4 +171,28 @@ mod tests {
         }
         assert!(Compressor::from_name("vtkZstd").is_err());
     }
+
+    fn crc32(bytes: &[u8]) -> u32 {
+        let step = |crc: u32, _| (crc >> 1) ^ (0xEDB8_8320 * (crc & 1));
+        let byte = |crc: u32, byte: &u8| (0..8).fold(crc ^ u32::from(*byte), step);
+        !bytes.iter().fold(!0, byte)
+    }
+
+    #[test]
+    fn huge_dictionaries_are_refused() {
+        let mut block = Compressor::Lzma.compress(&[7; 1000]).unwrap();
+        // The header of the first block follows the 12 bytes of the stream's; it says how
+        // long it is in words of 4 bytes, names the filter LZMA2 (0x21), and ends with a
+        // checksum.
+        let end = 12 + (usize::from(block[12]) + 1) * 4;
+        let filter = (12..end)
+            .find(|at| block[*at..].starts_with(&[0x21, 1]))
+            .unwrap();
+        // The code for a dictionary of 4 GiB.
+        block[filter + 2] = 40;
+        let checksum = crc32(&block[12..end - 4]);
+        block[end - 4..end].copy_from_slice(&checksum.to_le_bytes());
+        let error = Compressor::Lzma.decompress(&block, &mut [0; 1000]);
+        assert!(error.unwrap_err().contains("mem_limit"));
+    }
 }

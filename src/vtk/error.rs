@@ -18,7 +18,7 @@ pub enum VtkError {
     Write(io::Error),
 
     /// The file is not XML at all, or not VTK's.
-    #[error("'{}' is not a VTK XML file: {found}", path.display())]
+    #[error("'{}' is not a VTK XML file: {}", path.display(), line(found))]
     NotVtk { path: PathBuf, found: String },
 
     /// The file is in VTK's older format.
@@ -30,19 +30,31 @@ pub enum VtkError {
     Legacy { path: PathBuf },
 
     /// The file holds another kind of data.
-    #[error("'{}' holds a VTK {found}, but a {expected} is expected", path.display())]
-    OtherType { path: PathBuf, found: String, expected: &'static str },
+    #[error("'{}' holds a VTK {}, but a {expected} is expected", path.display(), line(found))]
+    OtherType {
+        path: PathBuf,
+        found: String,
+        expected: &'static str,
+    },
 
     /// The XML is not well formed.
-    #[error("'{}': bad XML at byte {offset}: {problem}", path.display())]
-    Xml { path: PathBuf, offset: u64, problem: String },
+    #[error("'{}': bad XML at byte {offset}: {}", path.display(), line(problem))]
+    Xml {
+        path: PathBuf,
+        offset: u64,
+        problem: String,
+    },
 
     /// The file stops before its end.
-    #[error("'{}' is cut short: {missing}; copy or write it again", path.display())]
+    #[error("'{}' is cut short: {}; copy or write it again", path.display(), line(missing))]
     Truncated { path: PathBuf, missing: String },
 
     /// An attribute of the file or of a piece has a value that means nothing.
-    #[error("'{}': <{element}> has {attribute}=\"{value}\", expected {expected}", path.display())]
+    #[error(
+        "'{}': <{element}> has {attribute}=\"{}\", expected {expected}",
+        path.display(),
+        line(value)
+    )]
     Attribute {
         path: PathBuf,
         element: String,
@@ -52,20 +64,48 @@ pub enum VtkError {
     },
 
     /// An array cannot be decoded.
-    #[error("'{}': array '{name}' of {section}: {problem}", path.display())]
-    Array { path: PathBuf, section: String, name: String, problem: ArrayError },
+    #[error("'{}': array '{}' of {section}: {problem}", path.display(), line(name))]
+    Array {
+        path: PathBuf,
+        section: String,
+        name: String,
+        problem: ArrayError,
+    },
 
     /// An array that was asked for is not in the file.
-    #[error("'{}' has no array '{name}' in {section}; it has {}", path.display(), list(available))]
-    MissingArray { path: PathBuf, section: &'static str, name: String, available: Vec<String> },
+    #[error(
+        "'{}' has no array '{}' in {section}; it has {}",
+        path.display(),
+        line(name),
+        list(available)
+    )]
+    MissingArray {
+        path: PathBuf,
+        section: &'static str,
+        name: String,
+        available: Vec<String>,
+    },
 
     /// An array that was asked for is in the file, but cannot be used.
-    #[error("'{}': array '{name}' of {section} cannot be used: {reason}", path.display())]
-    UnusableArray { path: PathBuf, section: &'static str, name: String, reason: String },
+    #[error(
+        "'{}': array '{}' of {section} cannot be used: {reason}",
+        path.display(),
+        line(name)
+    )]
+    UnusableArray {
+        path: PathBuf,
+        section: &'static str,
+        name: String,
+        reason: String,
+    },
 
     /// The data given to a writer contradict themselves.
-    #[error("cannot write array '{name}' of {section}: {problem}")]
-    Inconsistent { section: &'static str, name: String, problem: ArrayError },
+    #[error("cannot write array '{}' of {section}: {problem}", line(name))]
+    Inconsistent {
+        section: &'static str,
+        name: String,
+        problem: ArrayError,
+    },
 }
 
 /// What is wrong with one array. Offsets are bytes from the beginning of the file.
@@ -75,7 +115,7 @@ pub enum ArrayError {
     #[error("it is missing")]
     Missing,
 
-    #[error("unknown type '{0}'")]
+    #[error("unknown type '{}'", line(.0))]
     UnknownType(String),
 
     #[error("type {found} where {expected} is expected")]
@@ -84,14 +124,20 @@ pub enum ArrayError {
     #[error("{found} components where {expected} are expected")]
     Components { found: usize, expected: usize },
 
-    #[error("unknown format '{0}', expected ascii, binary or appended")]
+    #[error("unknown format '{}', expected ascii, binary or appended", line(.0))]
     UnknownFormat(String),
 
-    #[error("unknown compressor '{0}', expected vtkZLib-, vtkLZ4- or vtkLZMADataCompressor")]
+    #[error(
+        "unknown compressor '{}', expected vtkZLib-, vtkLZ4- or vtkLZMADataCompressor",
+        line(.0)
+    )]
     UnknownCompressor(String),
 
-    #[error("{attribute}=\"{value}\" is not a count")]
-    BadAttribute { attribute: &'static str, value: String },
+    #[error("{attribute}=\"{}\" is not a count", line(value))]
+    BadAttribute {
+        attribute: &'static str,
+        value: String,
+    },
 
     #[error("it is appended, but the file has no <AppendedData>")]
     NoAppendedData,
@@ -105,8 +151,15 @@ pub enum ArrayError {
     #[error("bad base64 near byte {offset}")]
     BadBase64 { offset: usize },
 
-    #[error("'{token}' at byte {offset} is not a number of type {expected}")]
-    BadNumber { token: String, offset: usize, expected: ArrayType },
+    #[error(
+        "'{}' at byte {offset} is not a number of type {expected}",
+        line(token)
+    )]
+    BadNumber {
+        token: String,
+        offset: usize,
+        expected: ArrayType,
+    },
 
     #[error("{found} values where {expected} are expected")]
     Count { found: usize, expected: usize },
@@ -120,7 +173,7 @@ pub enum ArrayError {
     #[error("its block sizes at byte {offset} contradict each other")]
     BlockSizes { offset: usize },
 
-    #[error("block {block} does not decompress: {problem}")]
+    #[error("block {block} does not decompress: {}", line(problem))]
     Decompression { block: usize, problem: String },
 
     #[error("several arrays share the same data in <AppendedData>, more than the file can hold")]
@@ -145,11 +198,49 @@ pub enum ArrayError {
     BadFaces { cell: usize },
 }
 
+/// How many characters of a text, and how many names, a message shows.
+const SHOWN: usize = 100;
+const NAMES_SHOWN: usize = 30;
+
+/// A text from a file, such that a message stays one line of bearable length.
+pub(super) fn line(text: &str) -> String {
+    let mut line = String::new();
+    for (index, character) in text.chars().enumerate() {
+        match character {
+            _ if index == SHOWN => {
+                line.push('…');
+                break;
+            }
+            control if control.is_control() => line.extend(control.escape_default()),
+            other => line.push(other),
+        }
+    }
+    line
+}
+
 /// The names, for a message.
 fn list(names: &[String]) -> String {
     if names.is_empty() {
         return String::from("none");
     }
-    let quoted: Vec<_> = names.iter().map(|name| format!("'{name}'")).collect();
+    let shown = names.iter().take(NAMES_SHOWN);
+    let mut quoted: Vec<_> = shown.map(|name| format!("'{}'", line(name))).collect();
+    if names.len() > NAMES_SHOWN {
+        quoted.push(format!("and {} more", names.len() - NAMES_SHOWN));
+    }
     quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_stay_one_line_of_bearable_length() {
+        assert_eq!(line("a\nb é'\u{7f}"), "a\\nb é'\\u{7f}");
+        assert_eq!(line(&"é".repeat(1000)).chars().count(), SHOWN + 1);
+        let names: Vec<_> = (0..40).map(|n| n.to_string()).collect();
+        assert!(list(&names).ends_with("'29', and 10 more"));
+        assert_eq!(list(&[]), "none");
+    }
 }

@@ -3,7 +3,7 @@
 use super::array_head::ArrayHead;
 use super::attributes::{AttributeKind, Attributes};
 use super::data_array::DataArray;
-use super::error::{ArrayError, VtkError};
+use super::error::{ArrayError, VtkError, line};
 use super::joined_array::{JoinedArray, OpenArray};
 use super::section::Section;
 use super::xml_file::{Budget, XmlFile};
@@ -20,6 +20,8 @@ pub(super) struct JoinedSection<'a> {
     /// Arrays left out, and why.
     pub(super) unusable: Vec<(String, String)>,
     repeated: Vec<String>,
+    /// Whether arrays were asked for by name: then none is left out in silence.
+    named: bool,
 }
 
 impl<'a> JoinedSection<'a> {
@@ -33,6 +35,7 @@ impl<'a> JoinedSection<'a> {
             active: Vec::new(),
             unusable: Vec::new(),
             repeated: sections.first().map_or(Vec::new(), |s| s.repeated.clone()),
+            named: false,
         };
         let Some(model) = model else {
             return joined;
@@ -68,13 +71,17 @@ impl<'a> JoinedSection<'a> {
     /// One line for each array that is not read as the file has it.
     pub(super) fn warnings(&self) -> Vec<String> {
         let label = self.label;
-        let unusable = self.unusable.iter();
-        let left_out =
-            unusable.map(|(name, why)| format!("{label} array '{name}' left out: {why}"));
-        let repeated = self.repeated.iter();
-        let repeated =
-            repeated.map(|name| format!("{label} has several arrays '{name}': the first is taken"));
-        left_out.chain(repeated).collect()
+        let left_out = |(name, why): &(String, String)| {
+            format!("{label} array '{}' left out: {why}", line(name))
+        };
+        let repeated = |name: &String| {
+            format!(
+                "{label} has several arrays '{}': the first is taken",
+                line(name)
+            )
+        };
+        let left_out = self.unusable.iter().map(left_out);
+        left_out.chain(self.repeated.iter().map(repeated)).collect()
     }
 
     /// Keeps the arrays of these names, all for `None`.
@@ -94,6 +101,7 @@ impl<'a> JoinedSection<'a> {
                 return Err(self.missing(file, name));
             }
         }
+        self.named = true;
         self.arrays.retain(|array| names.contains(&array.name));
         self.active = self.known_roles(&self.active);
         // Whoever names arrays need not hear about others.
@@ -117,19 +125,33 @@ impl<'a> JoinedSection<'a> {
         }
     }
 
-    /// Reads and checks the headers of all arrays.
+    /// Reads and checks the headers of all arrays. One of the wrong length is an error if
+    /// it was asked for by name, else it is left out, as VTK's reader does.
     pub(super) fn open(
-        self,
+        mut self,
         file: &'a XmlFile,
         budget: &mut Budget,
     ) -> Result<OpenSection<'a>, VtkError> {
         let mut arrays = Vec::with_capacity(self.arrays.len());
-        for array in self.arrays {
+        for array in std::mem::take(&mut self.arrays) {
             let name = array.name.clone();
-            let open = array.open(file, budget);
-            arrays.push(open.map_err(|problem| file.array_error(self.label, &name, problem))?);
+            match array.open(file, budget) {
+                Ok(open) => arrays.push(open),
+                Err(problem @ ArrayError::Count { .. }) if !self.named => {
+                    self.unusable.push((name, problem.to_string()));
+                }
+                Err(problem) => return Err(file.array_error(self.label, &name, problem)),
+            }
         }
-        Ok(OpenSection { file, label: self.label, arrays, active: self.active })
+        let is_open = |name: &String| arrays.iter().any(|array| array.head.name == *name);
+        self.active.retain(|(_, name)| is_open(name));
+        Ok(OpenSection {
+            file,
+            label: self.label,
+            warnings: self.warnings(),
+            arrays,
+            active: self.active,
+        })
     }
 }
 
@@ -160,6 +182,8 @@ fn join_array<'a>(
 pub(super) struct OpenSection<'a> {
     file: &'a XmlFile,
     label: &'static str,
+    /// One line for each array that is not read as the file has it.
+    pub(super) warnings: Vec<String>,
     arrays: Vec<OpenArray<'a>>,
     active: Vec<(AttributeKind, String)>,
 }

@@ -69,7 +69,6 @@ pub use piece::PieceCounts;
 pub use poly_data::PolyData;
 pub use polyhedra::Polyhedra;
 pub use reading::Loaded;
-pub use scalar::Scalar;
 pub use selection::Selection;
 pub use unstructured_grid::UnstructuredGrid;
 pub use values::Values;

@@ -33,7 +33,7 @@ pub(super) fn read_polyhedra(
         } else {
             without_faces(piece.counts.cells)
         };
-        append(&mut all, &faces, points);
+        append(&mut all, faces, points);
         points += piece.counts.points;
     }
     Ok(Some(all))
@@ -110,7 +110,11 @@ fn read_face_lists(
 }
 
 /// Appends the faces of one piece, whose points come after `points` others.
-fn append(all: &mut Polyhedra, piece: &Polyhedra, points: usize) {
+fn append(all: &mut Polyhedra, piece: Polyhedra, points: usize) {
+    if points == 0 && all.cells.is_empty() {
+        *all = piece;
+        return;
+    }
     let moved = |list: &[i64], shift: usize| -> Vec<i64> {
         list.iter().map(|index| index + shift as i64).collect()
     };

@@ -52,15 +52,17 @@ impl<'a> Reading<'a> {
         let points = open_points(file, pieces, budget)?;
         let point_data = sections.points.select(file, selection.points())?;
         let cell_data = sections.cells.select(file, selection.cells())?;
-        let labelled = [&point_data, &cell_data, &sections.field];
-        let warnings = labelled.iter().flat_map(|section| section.warnings()).collect();
+        let point_data = point_data.open(file, budget)?;
+        let cell_data = cell_data.open(file, budget)?;
+        let field_data = sections.field.open(file, budget)?;
+        let warnings = [&point_data, &cell_data, &field_data].map(|s| s.warnings.clone());
         Ok(Self {
             file,
             points,
-            point_data: point_data.open(file, budget)?,
-            cell_data: cell_data.open(file, budget)?,
-            field_data: sections.field.open(file, budget)?,
-            warnings,
+            point_data,
+            cell_data,
+            field_data,
+            warnings: warnings.concat(),
         })
     }
 

@@ -4,8 +4,8 @@ use super::array_type::ArrayType;
 use super::values::Values;
 use bytemuck::Pod;
 
-/// A number type of VTK's arrays. Sealed: the ten below and no others.
-pub trait Scalar: Pod + PartialEq + Send + Sync + sealed::Sealed {
+/// A number type of VTK's arrays: the ten below.
+pub(super) trait Scalar: Pod + PartialEq + Send + Sync {
     /// The type's tag.
     const TYPE: ArrayType;
 
@@ -28,14 +28,8 @@ pub trait Scalar: Pod + PartialEq + Send + Sync + sealed::Sealed {
     fn into_values(vector: Vec<Self>) -> Values;
 }
 
-mod sealed {
-    pub trait Sealed {}
-}
-
 macro_rules! integer {
     ($type:ident, $tag:ident) => {
-        impl sealed::Sealed for $type {}
-
         impl Scalar for $type {
             const TYPE: ArrayType = ArrayType::$tag;
 
@@ -68,8 +62,6 @@ macro_rules! integer {
 
 macro_rules! float {
     ($type:ident, $tag:ident) => {
-        impl sealed::Sealed for $type {}
-
         impl Scalar for $type {
             const TYPE: ArrayType = ArrayType::$tag;
 

@@ -89,7 +89,8 @@ impl Parser<'_> {
         let before = self.position();
         let event = self.reader.read_event().map_err(|error| {
             let offset = self.reader.error_position() + self.start as u64;
-            self.syntax_error(offset, &error, bytes)
+            // The reader gives no place for text that is not UTF-8.
+            self.syntax_error(offset.max(before as u64), &error, bytes)
         })?;
         match event {
             Event::Start(tag) => return self.open_tag(&tag, true),
@@ -248,11 +249,9 @@ impl<'a> Node<'a> {
         let mut attributes = Attributes::new(self.slice(|element| element.attributes.clone()), 0);
         attributes.with_checks(false);
         attributes.filter_map(Result::ok).map(|attribute| {
-            let value = match attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0) {
-                Ok(value) => Cow::Owned(value.into_owned()),
-                // VTK 9.7 itself writes '&' in names as it stands.
-                Err(_) => attribute.value,
-            };
+            let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+            // VTK 9.7 itself writes '&' in names as it stands.
+            let value = value.unwrap_or(attribute.value);
             (attribute.key.into_inner(), value)
         })
     }

@@ -1,0 +1,360 @@
+//! Cut, corrupted and forged files: an error or sane data, never a panic, a hang, or more
+//! memory than the file accounts for.
+
+#[path = "vtk_common/counting.rs"]
+mod counting;
+#[path = "vtk_common/mutation.rs"]
+mod mutation;
+mod vtk_common;
+
+use mutation::{Random, mutate};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use vtk_common::{Compressor, Format, Variant, sample, variants};
+use vtu2contour::vtk::{
+    Encoding, Loaded, PolyData, Selection, UnstructuredGrid, VtkError, VtpFile, VtuFile,
+    write_vtp_to, write_vtu_to,
+};
+
+/// Memory is counted for the whole process, so only one test runs at a time.
+fn alone() -> MutexGuard<'static, ()> {
+    static LOCK: Mutex<()> = Mutex::new(());
+    LOCK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+// --- Reading under watch ------------------------------------------------------------
+
+/// What a file may take beside four times its size.
+const SLACK: usize = 64 << 20;
+
+/// The longest any small file may take.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+#[derive(Clone)]
+struct Sample {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl Sample {
+    fn is_poly_data(&self) -> bool {
+        self.name.ends_with(".vtp")
+    }
+}
+
+/// Reads a file and checks memory, time, and that what comes out is consistent: the
+/// writer refuses data whose lengths or indices contradict each other.
+fn read(name: &str, bytes: Vec<u8>, is_poly_data: bool) -> Result<(), VtkError> {
+    let size = bytes.len();
+    let before = counting::begin();
+    let start = Instant::now();
+    let result = match is_poly_data {
+        true => read_poly_data(bytes).map(|data| write_vtp_to(std::io::sink(), &data, RAW.into())),
+        false => read_grid(bytes).map(|grid| write_vtu_to(std::io::sink(), &grid, RAW.into())),
+    };
+    let taken = counting::peak().saturating_sub(before);
+    assert!(
+        taken <= 4 * size + SLACK,
+        "{name}: {taken} bytes for {size}"
+    );
+    assert!(start.elapsed() < PATIENCE, "{name}: {:?}", start.elapsed());
+    if let Err(error) = &result {
+        let message = error.to_string();
+        assert!(!message.contains(char::is_control), "{message}");
+        assert!(message.contains("x.vt"), "{message}");
+    }
+    result.map(|written| written.expect("what was read is consistent"))
+}
+
+const RAW: Encoding = Encoding::Raw;
+
+fn read_grid(bytes: Vec<u8>) -> Result<UnstructuredGrid, VtkError> {
+    let file = VtuFile::from_bytes("x.vtu", bytes)?;
+    file.description()?;
+    let Loaded { data, .. } = file.read(&Selection::All)?;
+    Ok(data)
+}
+
+fn read_poly_data(bytes: Vec<u8>) -> Result<PolyData, VtkError> {
+    let file = VtpFile::from_bytes("x.vtp", bytes)?;
+    file.description()?;
+    let Loaded { data, .. } = file.read(&Selection::All)?;
+    Ok(data)
+}
+
+// --- Samples ------------------------------------------------------------------------
+
+/// Small files of every variant of the format, written here, by the library's writer, and
+/// (where they are at hand) by VTK and meshio.
+fn samples() -> Vec<Sample> {
+    let mut all: Vec<Sample> = variants()
+        .into_iter()
+        .filter(|variant| variant.block == 48 && variant.wide_header != variant.big_endian)
+        .map(|variant| Sample {
+            name: format!("{variant:?}.vtu"),
+            bytes: sample(variant),
+        })
+        .collect();
+    all.extend(our_samples());
+    all.extend(shared_samples());
+    all
+}
+
+fn our_samples() -> Vec<Sample> {
+    let mut grid = read_grid(sample(variants()[0])).unwrap();
+    let mut polyhedra = vtu2contour::vtk::Polyhedra::default();
+    polyhedra.faces.push(&[0, 1, 2]);
+    polyhedra.cells.push(&[0]);
+    polyhedra.cells.push(&[]);
+    polyhedra.cells.push(&[]);
+    grid.polyhedra = Some(polyhedra);
+    let mut data = PolyData::new(grid.points.clone());
+    data.point_data = grid.point_data.clone();
+    data.lines.push(&[0, 1, 2, 0]);
+    data.polys.push(&[0, 1, 4]);
+    let encodings = [
+        Encoding::Raw,
+        Encoding::Zlib,
+        Encoding::Lz4,
+        Encoding::Lzma,
+        Encoding::Base64,
+        Encoding::Ascii,
+    ];
+    let both = encodings.map(|encoding| {
+        let (mut vtu, mut vtp) = (Vec::new(), Vec::new());
+        write_vtu_to(&mut vtu, &grid, encoding.into()).unwrap();
+        write_vtp_to(&mut vtp, &data, encoding.into()).unwrap();
+        [("vtu", vtu), ("vtp", vtp)].map(|(suffix, bytes)| Sample {
+            name: format!("{encoding:?}.{suffix}"),
+            bytes,
+        })
+    });
+    both.into_iter().flatten().collect()
+}
+
+fn shared_samples() -> Vec<Sample> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let names = [
+        "vtkdata/Triangle.vtu",
+        "vtkdata/quadraticTetra01.vtu",
+        "vtkdata/polyhedron2pieces.vtu",
+        "vtkio/hexahedron_lz4.vtu",
+        "vtkio/hexahedron_lz4_inline_binary.vtu",
+        "vtkio/hexahedron_parallel_lzma_0.vtu",
+        "vtkio/pygmsh_lzma.vtu",
+        "vtkio/pygmsh_zlib.vtu",
+        "vtkio/tet.vtu",
+        "vtkio/box_para.vtu",
+    ];
+    let paths = names.map(|name| folder.join(name));
+    let found: Vec<Sample> = paths.iter().filter_map(open_sample).collect();
+    println!(
+        "{} of {} shared files skipped",
+        names.len() - found.len(),
+        names.len()
+    );
+    found
+}
+
+fn open_sample(path: &PathBuf) -> Option<Sample> {
+    Some(Sample {
+        name: path.display().to_string(),
+        bytes: std::fs::read(path).ok()?,
+    })
+}
+
+#[test]
+fn whole_samples_are_read() {
+    let _guard = alone();
+    for sample in samples() {
+        let is_poly_data = sample.is_poly_data();
+        let result = read(&sample.name, sample.bytes, is_poly_data);
+        assert!(result.is_ok(), "{}: {}", sample.name, result.unwrap_err());
+    }
+}
+
+#[test]
+fn cut_files_are_refused_wherever_they_are_cut() {
+    let _guard = alone();
+    for sample in samples() {
+        let whole = sample.bytes.trim_ascii_end().len();
+        for end in 0..whole {
+            let cut = sample.bytes[..end].to_vec();
+            let result = read(&sample.name, cut, sample.is_poly_data());
+            assert!(result.is_err(), "{} cut at {end} of {whole}", sample.name);
+        }
+    }
+}
+
+// --- Mutations ----------------------------------------------------------------------
+
+/// A number from the environment, for longer hunts than a test run allows.
+fn setting(name: &str, usual: usize) -> usize {
+    let value = std::env::var(name).ok();
+    value.and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+#[test]
+fn mutated_files_do_no_harm() {
+    let _guard = alone();
+    let samples = samples();
+    let runs = setting("VTK_MUTATIONS", 20_000);
+    let mut random = Random::new(setting("VTK_SEED", 1) as u64);
+    let mut refused = 0;
+    for run in 0..runs {
+        let sample = &samples[run % samples.len()];
+        let mut bytes = sample.bytes.clone();
+        for _ in 0..=random.below(4) {
+            mutate(&mut bytes, &mut random);
+        }
+        let keep = bytes.clone();
+        let job = || read(&sample.name, bytes, sample.is_poly_data());
+        match std::panic::catch_unwind(job) {
+            Ok(result) => refused += usize::from(result.is_err()),
+            Err(_) => panic!("run {run}, {}: {}", sample.name, keep.escape_ascii()),
+        }
+    }
+    println!("{refused} of {runs} refused");
+    assert!(refused > runs / 2);
+}
+
+// --- Forgeries ----------------------------------------------------------------------
+
+/// Bombs that promise much and hold little.
+#[test]
+fn forged_sizes_take_no_memory() {
+    let _guard = alone();
+    let huge = "1000000000000000";
+    for variant in variants() {
+        let text = sample(variant);
+        for name in ["NumberOfPoints=\"5\"", "NumberOfCells=\"3\""] {
+            let forged = name.split('"').next().unwrap().to_owned() + "\"" + huge + "\"";
+            let bytes = replace(&text, name, &forged);
+            assert!(read("forged", bytes, false).is_err(), "{variant:?} {name}");
+        }
+        // Only one array is wrong then, and left out.
+        let forged = format!("NumberOfComponents=\"{huge}\"");
+        let bytes = replace(&text, "NumberOfComponents=\"3\"", &forged);
+        read("forged", bytes.clone(), false).unwrap();
+        let file = VtuFile::from_bytes("forged", bytes).unwrap();
+        let warnings = file.read(&Selection::All).unwrap().warnings;
+        assert!(
+            warnings[0].contains("'f32' left out: 15 values where"),
+            "{warnings:?}"
+        );
+        let named = file.read(&Selection::named(["f32"], [""; 0]));
+        assert!(named.is_err(), "{variant:?}");
+    }
+}
+
+fn replace(bytes: &[u8], old: &str, new: &str) -> Vec<u8> {
+    let old = old.as_bytes();
+    let at = bytes
+        .windows(old.len())
+        .position(|part| part == old)
+        .unwrap();
+    [&bytes[..at], new.as_bytes(), &bytes[at + old.len()..]].concat()
+}
+
+/// A header of 2^60 bytes or blocks is refused at once.
+#[test]
+fn forged_headers_take_no_memory() {
+    let _guard = alone();
+    for compressor in [None, Some(Compressor::Zlib), Some(Compressor::Lzma)] {
+        let variant = Variant {
+            format: Format::AppendedRaw,
+            compressor,
+            wide_header: true,
+            big_endian: false,
+            block: 48,
+        };
+        let bytes = sample(variant);
+        let mark = bytes.windows(2).position(|pair| pair == b">_").unwrap() + 2;
+        // The block size (word 1) may be any: the only block is the last.
+        let words: &[usize] = if compressor.is_some() {
+            &[0, 2, 3]
+        } else {
+            &[0]
+        };
+        for word in words {
+            for value in [1u64 << 60, u64::MAX, u64::MAX / 8, 1 << 40] {
+                let mut forged = bytes.clone();
+                let at = mark + 8 * word;
+                forged[at..at + 8].copy_from_slice(&value.to_le_bytes());
+                let result = read("forged", forged, false);
+                assert!(result.is_err(), "{word} {value}");
+            }
+        }
+    }
+}
+
+/// Blocks that really decompress to far more than they are.
+#[test]
+fn compressed_bombs_stop_at_the_promised_size() {
+    let _guard = alone();
+    for compressor in [Compressor::Zlib, Compressor::Lz4, Compressor::Lzma] {
+        let variant = Variant {
+            format: Format::AppendedRaw,
+            compressor: Some(compressor),
+            wide_header: true,
+            big_endian: false,
+            block: 1 << 22,
+        };
+        let mut bomb = vtk_common::Encoder::new("UnstructuredGrid", variant);
+        let zeros = vec![0; 1 << 22];
+        bomb.raw("<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/><FieldData>")
+            .array("a", 1, &vtk_common::u8s(&zeros))
+            .raw("</FieldData>");
+        let bytes = bomb.finish("UnstructuredGrid");
+        assert!(read("bomb", bytes.clone(), false).is_ok());
+        // The same blocks, promised to be a hundred bytes.
+        let mark = bytes.windows(2).position(|pair| pair == b">_").unwrap() + 2;
+        let mut forged = bytes;
+        forged[mark + 8..mark + 16].copy_from_slice(&100u64.to_le_bytes());
+        assert!(read("bomb", forged, false).is_err(), "{compressor:?}");
+    }
+}
+
+/// Many arrays at one offset would add up to more than the file.
+#[test]
+fn arrays_that_share_their_data_do_not_add_up() {
+    let _guard = alone();
+    let count = 20_000;
+    let array = |index: usize| {
+        format!("<DataArray type='Int8' Name='{index}' format='appended' offset='0'/>")
+    };
+    let arrays: String = (0..200).map(array).collect();
+    let mut bytes = format!(
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><FieldData>{arrays}</FieldData>\
+         </UnstructuredGrid><AppendedData encoding='raw'>_"
+    )
+    .into_bytes();
+    bytes.extend((count as u32).to_le_bytes());
+    bytes.extend(vec![0; count]);
+    bytes.extend(b"</AppendedData></VTKFile>");
+    let message = read("shared", bytes, false).unwrap_err().to_string();
+    assert!(message.contains("share the same data"), "{message}");
+}
+
+/// A head of many tiny elements, attributes and names.
+#[test]
+fn swollen_heads_take_bounded_memory() {
+    let _guard = alone();
+    let file = |inside: String| {
+        let text = format!("<VTKFile type='UnstructuredGrid'><UnstructuredGrid>{inside}");
+        format!("{text}</UnstructuredGrid></VTKFile>").into_bytes()
+    };
+    let piece = "<Piece NumberOfPoints='0' NumberOfCells='0'/>";
+    let attributes: String = (0..100_000).map(|i| format!(" a{i}=''")).collect();
+    let arrays = "<DataArray type='Int8' Name='a'/>".repeat(50_000);
+    for inside in [
+        "<a/>".repeat(1_000_000),
+        piece.repeat(20_000),
+        format!("<Piece NumberOfPoints='0' NumberOfCells='0'{attributes}/>"),
+        format!("<FieldData>{arrays}</FieldData>"),
+        "<a>".repeat(200_000),
+    ] {
+        let _ = read("swollen", file(inside), false);
+    }
+}

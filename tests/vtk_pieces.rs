@@ -98,14 +98,8 @@ fn arrays_of_some_pieces_are_left_out_and_reported() {
     assert!(loaded.data.point_data.is_empty());
     assert!(loaded.data.point_data.active_names().is_empty());
     let warnings = loaded.warnings.join("\n");
-    assert!(
-        warnings.contains("'s' left out: its type or components differ"),
-        "{warnings}"
-    );
-    assert!(
-        warnings.contains("'t' left out: not every piece has it"),
-        "{warnings}"
-    );
+    assert!(warnings.contains("'s' left out: its type or components differ"), "{warnings}");
+    assert!(warnings.contains("'t' left out: not every piece has it"), "{warnings}");
     let error = file.read(&Selection::named(["t"], [""; 0])).unwrap_err();
     assert!(matches!(error, VtkError::UnusableArray { .. }), "{error}");
     let none = file.read(&Selection::none()).unwrap();
@@ -114,21 +108,14 @@ fn arrays_of_some_pieces_are_left_out_and_reported() {
 
 #[test]
 fn arrays_of_the_wrong_length_are_left_out_or_refused() {
-    let arrays = [
-        array("Int16", "s", 1, "1 2 3"),
-        array("Int16", "t", 1, "1 2"),
-    ]
-    .concat();
+    let arrays = [array("Int16", "s", 1, "1 2 3"), array("Int16", "t", 1, "1 2")].concat();
     let file = grid(&[Some(arrays)]);
     let loaded = file.read(&Selection::All).unwrap();
     assert_eq!(loaded.data.point_data.len(), 1);
     assert!(loaded.data.point_data.active_names().is_empty());
     assert!(loaded.warnings[0].contains("3 values where 2 are expected"));
     let error = file.read(&Selection::named(["s"], [""; 0])).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "'x.vtu': array 's' of PointData: 3 values where 2 are expected"
-    );
+    assert_eq!(error.to_string(), "'x.vtu': array 's' of PointData: 3 values where 2 are expected");
 }
 
 #[test]
@@ -140,10 +127,7 @@ fn unknown_types_and_formats_are_named() {
     assert!(file.read(&Selection::named(["h"], [""; 0])).is_err());
     let arrays = array("Int8", "z", 1, "1 2").replace("ascii", "morse");
     let error = grid(&[Some(arrays)]).read(&Selection::All).unwrap_err();
-    assert!(
-        error.to_string().contains("unknown format 'morse'"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("unknown format 'morse'"), "{error}");
 }
 
 /// The faces of a tetrahedron, as VTK writes them before 9.4 and after.
@@ -159,11 +143,7 @@ fn face_arrays(new_form: bool, point: i64) -> String {
         .concat();
     }
     let stream = format!("4 3 0 2 1 3 0 1 3 3 1 2 3 3 0 3 {point}");
-    [
-        array("Int64", "faces", 1, &stream),
-        array("Int64", "faceoffsets", 1, "-1 17"),
-    ]
-    .concat()
+    [array("Int64", "faces", 1, &stream), array("Int64", "faceoffsets", 1, "-1 17")].concat()
 }
 
 /// Two pieces of a tetrahedron and a polyhedron each; and one without polyhedra between.
@@ -176,12 +156,7 @@ fn polyhedra(new_form: bool, point: i64) -> Result<UnstructuredGrid, VtkError> {
     let lists = cells("Cells", "0 1 2 3 0 1 2 3", "4 8");
     let with = array("UInt8", "types", 1, "10 42") + &face_arrays(new_form, point);
     let without = array("UInt8", "types", 1, "10 10");
-    let pieces = [
-        piece(&lists, &with),
-        piece(&lists, &without),
-        piece(&lists, &with),
-    ]
-    .concat();
+    let pieces = [piece(&lists, &with), piece(&lists, &without), piece(&lists, &with)].concat();
     let text = format!(
         "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>{pieces}</UnstructuredGrid></VTKFile>"
     );

@@ -34,22 +34,12 @@ const COUNTS: [Counts; 19] = [
     ("vtkdata/quadraticTetra01.vtu", 22, 3, &[(22, 2), (24, 1)]),
     ("vtkdata/polyhedron2pieces.vtu", 18, 4, &[(14, 2), (42, 2)]),
     ("vtkdata/Disc_BiQuadraticQuads.vtu", 1569, 376, &[(28, 376)]),
-    (
-        "vtkdata/kiefer_tet10_celldata.vtu",
-        102_578,
-        56_786,
-        &[(24, 56_786)],
-    ),
+    ("vtkdata/kiefer_tet10_celldata.vtu", 102_578, 56_786, &[(24, 56_786)]),
     ("vtkdata/ex-blow_5/ex-blow_5_0_0.vtu", 82, 116, &[(5, 116)]),
     ("vtkdata/ex-blow_5/ex-blow_5_0_7.vtu", 80, 116, &[(5, 116)]),
     ("lagrange/data2d.vtu", 256, 4, &[(70, 4)]),
     ("lagrange/data3d.vtu", 864, 4, &[(72, 4)]),
-    (
-        "readvtk/pointdata_appended_binary_compressed.vtu",
-        243,
-        3,
-        &[(70, 3)],
-    ),
+    ("readvtk/pointdata_appended_binary_compressed.vtu", 243, 3, &[(70, 3)]),
     ("vtkio/hexahedron_lz4.vtu", 8, 1, &[(12, 1)]),
     ("vtkio/hexahedron_lz4_inline_binary.vtu", 8, 1, &[(12, 1)]),
     ("vtkio/hexahedron_parallel_lzma_0.vtu", 8, 1, &[(12, 1)]),
@@ -84,25 +74,10 @@ fn range(values: &[f64]) -> (f64, f64) {
 const RANGES: [(&str, &str, f64, f64); 7] = [
     ("vtkdata/Tetrahedron.vtu", "DistanceToCenter", 0.0, 1.732),
     ("vtkdata/QuadraticTetra.vtu", "Polynomial", 1.0, 7.0),
-    (
-        "vtkdata/ex-blow_5/ex-blow_5_0_0.vtu",
-        "DISPLACEMENT_",
-        0.0,
-        3.296,
-    ),
-    (
-        "vtkdata/ex-blow_5/ex-blow_5_0_3.vtu",
-        "THICKNESS",
-        0.4594,
-        0.7267,
-    ),
+    ("vtkdata/ex-blow_5/ex-blow_5_0_0.vtu", "DISPLACEMENT_", 0.0, 3.296),
+    ("vtkdata/ex-blow_5/ex-blow_5_0_3.vtu", "THICKNESS", 0.4594, 0.7267),
     ("lagrange/data2d.vtu", "data", 1.0 / E, E),
-    (
-        "readvtk/pointdata_appended_binary_compressed.vtu",
-        "rho",
-        1.899,
-        2.103,
-    ),
+    ("readvtk/pointdata_appended_binary_compressed.vtu", "rho", 1.899, 2.103),
     ("vtkio/tet.vtu", "pressure", -0.9428, 0.4714),
 ];
 
@@ -129,12 +104,7 @@ fn distances_are_those_of_the_points() {
         return;
     };
     let [x, y, z] = [0, 1, 2].map(|i| grid.points.component(i).unwrap());
-    let distances = grid
-        .point_data
-        .get("DistanceToCenter")
-        .unwrap()
-        .to_f64()
-        .unwrap();
+    let distances = grid.point_data.get("DistanceToCenter").unwrap().to_f64().unwrap();
     for (i, distance) in distances.iter().enumerate() {
         let square = (x[i] - 1.0).powi(2) + (y[i] - 1.0).powi(2) + (z[i] - 1.0).powi(2);
         assert!((square.sqrt() - distance).abs() < 1e-6);
@@ -152,13 +122,7 @@ fn polyhedra_of_two_pieces_are_joined() {
     }
     let second: Vec<i64> = grid.cells.iter().skip(2).flatten().copied().collect();
     assert!(second.iter().all(|point| *point >= 9), "{second:?}");
-    assert!(
-        polyhedra
-            .faces
-            .connectivity()
-            .iter()
-            .any(|point| *point >= 9)
-    );
+    assert!(polyhedra.faces.connectivity().iter().any(|point| *point >= 9));
 }
 
 #[test]
@@ -185,11 +149,7 @@ fn every_file_is_read_or_refused_politely() {
                 let message = error.to_string();
                 assert!(message.contains(&path.display().to_string()), "{message}");
                 let is_legacy = matches!(error, VtkError::Legacy { .. });
-                assert_eq!(
-                    is_legacy,
-                    path.extension().is_some_and(|e| e == "vtk"),
-                    "{message}"
-                );
+                assert_eq!(is_legacy, path.extension().is_some_and(|e| e == "vtk"), "{message}");
             }
         }
         assert!(VtpFile::open(&path).is_err());

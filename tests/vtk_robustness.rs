@@ -54,10 +54,7 @@ fn read(name: &str, bytes: Vec<u8>, is_poly_data: bool) -> Result<(), VtkError> 
         false => read_grid(bytes).map(|grid| write_vtu_to(std::io::sink(), &grid, RAW.into())),
     };
     let taken = counting::peak().saturating_sub(before);
-    assert!(
-        taken <= 4 * size + SLACK,
-        "{name}: {taken} bytes for {size}"
-    );
+    assert!(taken <= 4 * size + SLACK, "{name}: {taken} bytes for {size}");
     assert!(start.elapsed() < PATIENCE, "{name}: {:?}", start.elapsed());
     if let Err(error) = &result {
         let message = error.to_string();
@@ -91,10 +88,7 @@ fn samples() -> Vec<Sample> {
     let mut all: Vec<Sample> = variants()
         .into_iter()
         .filter(|variant| variant.block == 48 && variant.wide_header != variant.big_endian)
-        .map(|variant| Sample {
-            name: format!("{variant:?}.vtu"),
-            bytes: sample(variant),
-        })
+        .map(|variant| Sample { name: format!("{variant:?}.vtu"), bytes: sample(variant) })
         .collect();
     all.extend(our_samples());
     all.extend(shared_samples());
@@ -125,10 +119,8 @@ fn our_samples() -> Vec<Sample> {
         let (mut vtu, mut vtp) = (Vec::new(), Vec::new());
         write_vtu_to(&mut vtu, &grid, encoding.into()).unwrap();
         write_vtp_to(&mut vtp, &data, encoding.into()).unwrap();
-        [("vtu", vtu), ("vtp", vtp)].map(|(suffix, bytes)| Sample {
-            name: format!("{encoding:?}.{suffix}"),
-            bytes,
-        })
+        [("vtu", vtu), ("vtp", vtp)]
+            .map(|(suffix, bytes)| Sample { name: format!("{encoding:?}.{suffix}"), bytes })
     });
     both.into_iter().flatten().collect()
 }
@@ -149,19 +141,12 @@ fn shared_samples() -> Vec<Sample> {
     ];
     let paths = names.map(|name| folder.join(name));
     let found: Vec<Sample> = paths.iter().filter_map(open_sample).collect();
-    println!(
-        "{} of {} shared files skipped",
-        names.len() - found.len(),
-        names.len()
-    );
+    println!("{} of {} shared files skipped", names.len() - found.len(), names.len());
     found
 }
 
 fn open_sample(path: &PathBuf) -> Option<Sample> {
-    Some(Sample {
-        name: path.display().to_string(),
-        bytes: std::fs::read(path).ok()?,
-    })
+    Some(Sample { name: path.display().to_string(), bytes: std::fs::read(path).ok()? })
 }
 
 #[test]
@@ -239,10 +224,7 @@ fn forged_sizes_take_no_memory() {
         read("forged", bytes.clone(), false).unwrap();
         let file = VtuFile::from_bytes("forged", bytes).unwrap();
         let warnings = file.read(&Selection::All).unwrap().warnings;
-        assert!(
-            warnings[0].contains("'f32' left out: 15 values where"),
-            "{warnings:?}"
-        );
+        assert!(warnings[0].contains("'f32' left out: 15 values where"), "{warnings:?}");
         let named = file.read(&Selection::named(["f32"], [""; 0]));
         assert!(named.is_err(), "{variant:?}");
     }
@@ -250,10 +232,7 @@ fn forged_sizes_take_no_memory() {
 
 fn replace(bytes: &[u8], old: &str, new: &str) -> Vec<u8> {
     let old = old.as_bytes();
-    let at = bytes
-        .windows(old.len())
-        .position(|part| part == old)
-        .unwrap();
+    let at = bytes.windows(old.len()).position(|part| part == old).unwrap();
     [&bytes[..at], new.as_bytes(), &bytes[at + old.len()..]].concat()
 }
 
@@ -272,11 +251,7 @@ fn forged_headers_take_no_memory() {
         let bytes = sample(variant);
         let mark = bytes.windows(2).position(|pair| pair == b">_").unwrap() + 2;
         // The block size (word 1) may be any: the only block is the last.
-        let words: &[usize] = if compressor.is_some() {
-            &[0, 2, 3]
-        } else {
-            &[0]
-        };
+        let words: &[usize] = if compressor.is_some() { &[0, 2, 3] } else { &[0] };
         for word in words {
             for value in [1u64 << 60, u64::MAX, u64::MAX / 8, 1 << 40] {
                 let mut forged = bytes.clone();

@@ -18,12 +18,7 @@ const ENCODINGS: [Encoding; 6] = [
 ];
 
 fn values(count: usize) -> BoxedStrategy<Values> {
-    let float = prop_oneof![
-        any::<f64>(),
-        Just(f64::NAN),
-        Just(-0.0),
-        Just(f64::NEG_INFINITY)
-    ];
+    let float = prop_oneof![any::<f64>(), Just(f64::NAN), Just(-0.0), Just(f64::NEG_INFINITY)];
     prop_oneof![
         vec(any::<i8>(), count).prop_map(Values::from),
         vec(any::<u8>(), count).prop_map(Values::from),
@@ -106,15 +101,8 @@ fn polyhedra(cells: &CellArray, points: usize) -> Option<Polyhedra> {
 }
 
 fn grid() -> impl Strategy<Value = UnstructuredGrid> {
-    let sized = |count| {
-        (
-            points(count),
-            lists(count),
-            attributes(count),
-            attributes(2),
-            any::<bool>(),
-        )
-    };
+    let sized =
+        |count| (points(count), lists(count), attributes(count), attributes(2), any::<bool>());
     (0usize..9).prop_flat_map(sized).prop_flat_map(|parts| {
         let (points, cells, point_data, field_data, faces) = parts;
         let count = cells.len();
@@ -139,31 +127,23 @@ fn without_roles(set: &Attributes) -> Attributes {
 }
 
 fn poly_data() -> impl Strategy<Value = PolyData> {
-    let sized = |n| {
-        (
-            points(n),
-            [lists(n), lists(n), lists(n), lists(n)],
-            attributes(n),
-        )
-    };
-    (0usize..9)
-        .prop_flat_map(sized)
-        .prop_flat_map(|(points, cells, point_data)| {
-            let count = cells.iter().map(CellArray::len).sum();
-            attributes(count).prop_map(move |cell_data| {
-                let [verts, lines, polys, strips] = cells.clone();
-                PolyData {
-                    points: points.clone(),
-                    verts,
-                    lines,
-                    polys,
-                    strips,
-                    point_data: point_data.clone(),
-                    cell_data,
-                    field_data: Attributes::new(),
-                }
-            })
+    let sized = |n| (points(n), [lists(n), lists(n), lists(n), lists(n)], attributes(n));
+    (0usize..9).prop_flat_map(sized).prop_flat_map(|(points, cells, point_data)| {
+        let count = cells.iter().map(CellArray::len).sum();
+        attributes(count).prop_map(move |cell_data| {
+            let [verts, lines, polys, strips] = cells.clone();
+            PolyData {
+                points: points.clone(),
+                verts,
+                lines,
+                polys,
+                strips,
+                point_data: point_data.clone(),
+                cell_data,
+                field_data: Attributes::new(),
+            }
         })
+    })
 }
 
 /// NaN differs from itself, but not its text.
@@ -251,15 +231,9 @@ fn floats_in_another_precision() {
         };
         let single = read(Floats::Single);
         assert_eq!(single.points.values, vec![0.1f32, 0.2, 0.3].into());
-        assert_eq!(
-            single.point_data.get("i").unwrap().values,
-            vec![5i64].into()
-        );
+        assert_eq!(single.point_data.get("i").unwrap().values, vec![5i64].into());
         let double = read(Floats::Double);
-        assert_eq!(
-            double.point_data.get("s").unwrap().values,
-            vec![0.5f64].into()
-        );
+        assert_eq!(double.point_data.get("s").unwrap().values, vec![0.5f64].into());
     }
 }
 
@@ -276,16 +250,10 @@ fn contradicting_data_are_not_written() {
         error.to_string()
     };
     let message = refuse(|data| data.point_data.push(DataArray::new("s", 1, vec![1.0f32])));
-    assert!(
-        message.contains("'s' of PointData: 1 values where 2"),
-        "{message}"
-    );
+    assert!(message.contains("'s' of PointData: 1 values where 2"), "{message}");
     refuse(|data| data.cell_data.push(DataArray::new("c", 1, vec![1.0f32])));
     let message = refuse(|data| data.lines.push(&[0, 2]));
-    assert!(
-        message.contains("cell 0 has the index 2, outside 0..2"),
-        "{message}"
-    );
+    assert!(message.contains("cell 0 has the index 2, outside 0..2"), "{message}");
     refuse(|data| data.points.components = 2);
     refuse(|data| data.points.values = vec![1i8; 6].into());
     assert!(!path.exists());
@@ -294,8 +262,5 @@ fn contradicting_data_are_not_written() {
 #[test]
 fn errors_of_opening_name_the_file() {
     let missing = VtuFile::open("no/such.vtu").unwrap_err().to_string();
-    assert!(
-        missing.starts_with("cannot read 'no/such.vtu'"),
-        "{missing}"
-    );
+    assert!(missing.starts_with("cannot read 'no/such.vtu'"), "{missing}");
 }

@@ -25,19 +25,13 @@ fn check(grid: &UnstructuredGrid) {
     assert_eq!(point("f32"), thirds.into());
     assert_eq!(point("i8"), vec![-128i8, -1, 0, 1, 127].into());
     assert_eq!(point("u8"), vec![0u8, 1, 2, 254, 255].into());
-    assert_eq!(
-        point("i16"),
-        vec![-32768i16, -2, -1, 0, 1, 2, 3, 4, 5, 32767].into()
-    );
+    assert_eq!(point("i16"), vec![-32768i16, -2, -1, 0, 1, 2, 3, 4, 5, 32767].into());
     assert_eq!(point("u16"), vec![0u16, 1, 2, 3, 65535].into());
     assert_eq!(cell("i32"), vec![i32::MIN, 0, i32::MAX].into());
     assert_eq!(cell("u32"), vec![0, 1, u32::MAX].into());
     assert_eq!(cell("i64"), vec![i64::MIN, 0, i64::MAX].into());
     assert_eq!(cell("u64"), vec![0, 1, u64::MAX].into());
-    assert_eq!(
-        grid.field_data.get("TimeValue").unwrap().values,
-        vec![0.25].into()
-    );
+    assert_eq!(grid.field_data.get("TimeValue").unwrap().values, vec![0.25].into());
     let active = grid.point_data.active(AttributeKind::Scalars).unwrap();
     assert_eq!(active.name, "a <f64>");
 }
@@ -64,9 +58,7 @@ fn descriptions_need_no_decoding() {
         let description = file.description().unwrap();
         assert_eq!((description.points(), description.cells()), (5, 3));
         let arrays = description.point_arrays.iter();
-        let arrays: Vec<_> = arrays
-            .map(|a| (&a.name[..], a.array_type, a.components))
-            .collect();
+        let arrays: Vec<_> = arrays.map(|a| (&a.name[..], a.array_type, a.components)).collect();
         assert_eq!(arrays[0], ("a <f64>", ArrayType::F64, 1));
         assert_eq!(arrays[1], ("f32", ArrayType::F32, 3));
         assert_eq!(description.point_arrays[0].active, [AttributeKind::Scalars]);
@@ -82,10 +74,7 @@ fn arrays_that_are_not_selected_are_not_decoded() {
         let spoiled = text.replace("-128", "x128").into_bytes();
         let file = VtuFile::from_bytes("sample.vtu", spoiled.clone()).unwrap();
         let message = file.read(&Selection::All).unwrap_err().to_string();
-        assert!(
-            message.contains("'i8' of PointData: 'x128' at byte"),
-            "{message}"
-        );
+        assert!(message.contains("'i8' of PointData: 'x128' at byte"), "{message}");
         let grid = read(spoiled, &Selection::named(["f32"], ["u64"]));
         assert_eq!((grid.point_data.len(), grid.cell_data.len()), (1, 1));
         assert!(grid.point_data.active(AttributeKind::Scalars).is_none());

@@ -185,9 +185,7 @@ mod tests {
         // long it is in words of 4 bytes, names the filter LZMA2 (0x21), and ends with a
         // checksum.
         let end = 12 + (usize::from(block[12]) + 1) * 4;
-        let filter = (12..end)
-            .find(|at| block[*at..].starts_with(&[0x21, 1]))
-            .unwrap();
+        let filter = (12..end).find(|at| block[*at..].starts_with(&[0x21, 1])).unwrap();
         // The code for a dictionary of 4 GiB.
         block[filter + 2] = 40;
         let checksum = crc32(&block[12..end - 4]);

@@ -31,19 +31,11 @@ pub enum VtkError {
 
     /// The file holds another kind of data.
     #[error("'{}' holds a VTK {}, but a {expected} is expected", path.display(), line(found))]
-    OtherType {
-        path: PathBuf,
-        found: String,
-        expected: &'static str,
-    },
+    OtherType { path: PathBuf, found: String, expected: &'static str },
 
     /// The XML is not well formed.
     #[error("'{}': bad XML at byte {offset}: {}", path.display(), line(problem))]
-    Xml {
-        path: PathBuf,
-        offset: u64,
-        problem: String,
-    },
+    Xml { path: PathBuf, offset: u64, problem: String },
 
     /// The file stops before its end.
     #[error("'{}' is cut short: {}; copy or write it again", path.display(), line(missing))]
@@ -65,12 +57,7 @@ pub enum VtkError {
 
     /// An array cannot be decoded.
     #[error("'{}': array '{}' of {section}: {problem}", path.display(), line(name))]
-    Array {
-        path: PathBuf,
-        section: String,
-        name: String,
-        problem: ArrayError,
-    },
+    Array { path: PathBuf, section: String, name: String, problem: ArrayError },
 
     /// An array that was asked for is not in the file.
     #[error(
@@ -79,12 +66,7 @@ pub enum VtkError {
         line(name),
         list(available)
     )]
-    MissingArray {
-        path: PathBuf,
-        section: &'static str,
-        name: String,
-        available: Vec<String>,
-    },
+    MissingArray { path: PathBuf, section: &'static str, name: String, available: Vec<String> },
 
     /// An array that was asked for is in the file, but cannot be used.
     #[error(
@@ -92,20 +74,11 @@ pub enum VtkError {
         path.display(),
         line(name)
     )]
-    UnusableArray {
-        path: PathBuf,
-        section: &'static str,
-        name: String,
-        reason: String,
-    },
+    UnusableArray { path: PathBuf, section: &'static str, name: String, reason: String },
 
     /// The data given to a writer contradict themselves.
     #[error("cannot write array '{}' of {section}: {problem}", line(name))]
-    Inconsistent {
-        section: &'static str,
-        name: String,
-        problem: ArrayError,
-    },
+    Inconsistent { section: &'static str, name: String, problem: ArrayError },
 }
 
 /// What is wrong with one array. Offsets are bytes from the beginning of the file.
@@ -134,10 +107,7 @@ pub enum ArrayError {
     UnknownCompressor(String),
 
     #[error("{attribute}=\"{}\" is not a count", line(value))]
-    BadAttribute {
-        attribute: &'static str,
-        value: String,
-    },
+    BadAttribute { attribute: &'static str, value: String },
 
     #[error("it is appended, but the file has no <AppendedData>")]
     NoAppendedData,
@@ -151,15 +121,8 @@ pub enum ArrayError {
     #[error("bad base64 near byte {offset}")]
     BadBase64 { offset: usize },
 
-    #[error(
-        "'{}' at byte {offset} is not a number of type {expected}",
-        line(token)
-    )]
-    BadNumber {
-        token: String,
-        offset: usize,
-        expected: ArrayType,
-    },
+    #[error("'{}' at byte {offset} is not a number of type {expected}", line(token))]
+    BadNumber { token: String, offset: usize, expected: ArrayType },
 
     #[error("{found} values where {expected} are expected")]
     Count { found: usize, expected: usize },

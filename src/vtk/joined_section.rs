@@ -75,10 +75,7 @@ impl<'a> JoinedSection<'a> {
             format!("{label} array '{}' left out: {why}", line(name))
         };
         let repeated = |name: &String| {
-            format!(
-                "{label} has several arrays '{}': the first is taken",
-                line(name)
-            )
+            format!("{label} has several arrays '{}': the first is taken", line(name))
         };
         let left_out = self.unusable.iter().map(left_out);
         left_out.chain(self.repeated.iter().map(repeated)).collect()

@@ -56,14 +56,7 @@ impl<'a> Reading<'a> {
         let cell_data = cell_data.open(file, budget)?;
         let field_data = sections.field.open(file, budget)?;
         let warnings = [&point_data, &cell_data, &field_data].map(|s| s.warnings.clone());
-        Ok(Self {
-            file,
-            points,
-            point_data,
-            cell_data,
-            field_data,
-            warnings: warnings.concat(),
-        })
+        Ok(Self { file, points, point_data, cell_data, field_data, warnings: warnings.concat() })
     }
 
     /// Decodes everything that was opened.

@@ -13,10 +13,7 @@ fn add(bytes: usize) {
     PEAK.fetch_max(used, Ordering::Relaxed);
 }
 
-#[allow(
-    unsafe_code,
-    reason = "counting allocations takes an allocator, and that trait is unsafe"
-)]
+#[allow(unsafe_code, reason = "counting allocations takes an allocator, and that trait is unsafe")]
 // SAFETY: every call is handed to the system's allocator as it is.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {

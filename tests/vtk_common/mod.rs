@@ -34,18 +34,8 @@ pub enum Compressor {
 
 /// Every combination, with two block sizes.
 pub fn variants() -> Vec<Variant> {
-    let formats = [
-        Format::Ascii,
-        Format::Inline,
-        Format::AppendedBase64,
-        Format::AppendedRaw,
-    ];
-    let compressors = [
-        None,
-        Some(Compressor::Zlib),
-        Some(Compressor::Lz4),
-        Some(Compressor::Lzma),
-    ];
+    let formats = [Format::Ascii, Format::Inline, Format::AppendedBase64, Format::AppendedRaw];
+    let compressors = [None, Some(Compressor::Zlib), Some(Compressor::Lz4), Some(Compressor::Lzma)];
     let mut all = Vec::new();
     for format in formats {
         for compressor in compressors {
@@ -144,11 +134,7 @@ impl Encoder {
             Some(Compressor::Lzma) => head += " compressor=\"vtkLZMADataCompressor\"",
         }
         writeln!(head, "><{kind}>").unwrap();
-        Self {
-            variant,
-            head,
-            appended: Vec::new(),
-        }
+        Self { variant, head, appended: Vec::new() }
     }
 
     /// Adds text to the head.
@@ -214,9 +200,7 @@ impl Encoder {
         let chunks = bytes.chunks(self.variant.block);
         let blocks: Vec<_> = chunks.map(|chunk| compress(chunk, compressor)).collect();
         let last = bytes.len() % self.variant.block;
-        let mut header = [blocks.len(), self.variant.block, last]
-            .map(|n| self.word(n))
-            .concat();
+        let mut header = [blocks.len(), self.variant.block, last].map(|n| self.word(n)).concat();
         header.extend(blocks.iter().flat_map(|block| self.word(block.len())));
         vec![header, blocks.concat()]
     }
@@ -271,11 +255,7 @@ pub fn sample(variant: Variant) -> Vec<u8> {
         .raw("</FieldData><Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">")
         .raw("<PointData Scalars=\"a &lt;f64&gt;\">")
         .array("a &lt;f64&gt;", 1, &f64s(&[0.1, -2e-300, 3e300, 0.0, 5.0]))
-        .array(
-            "f32",
-            3,
-            &f32s(&(0..15).map(|i| i as f32 / 7.0).collect::<Vec<_>>()),
-        )
+        .array("f32", 3, &f32s(&(0..15).map(|i| i as f32 / 7.0).collect::<Vec<_>>()))
         .array("i8", 1, &i8s(&[-128, -1, 0, 1, 127]))
         .array("u8", 1, &u8s(&[0, 1, 2, 254, 255]))
         .array("i16", 2, &i16s(&[-32768, -2, -1, 0, 1, 2, 3, 4, 5, 32767]))

@@ -87,10 +87,7 @@ fn replace_number(bytes: &mut Vec<u8>, at: usize, number: &str) {
     let Some(start) = bytes[at..].iter().position(is_digit).map(|p| at + p) else {
         return;
     };
-    let digits = bytes[start..]
-        .iter()
-        .take_while(|byte| is_digit(byte))
-        .count();
+    let digits = bytes[start..].iter().take_while(|byte| is_digit(byte)).count();
     bytes.splice(start..start + digits, number.bytes());
 }
 
@@ -98,9 +95,7 @@ fn replace_number(bytes: &mut Vec<u8>, at: usize, number: &str) {
 fn replace_word(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
     let found = (at..bytes.len()).find_map(|start| {
         let rest = &bytes[start..];
-        let word = WORDS
-            .iter()
-            .find(|word| rest.starts_with(word.as_bytes()))?;
+        let word = WORDS.iter().find(|word| rest.starts_with(word.as_bytes()))?;
         Some(start..start + word.len())
     });
     if let Some(range) = found {
@@ -110,14 +105,7 @@ fn replace_word(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
 
 /// Overwrites a word of a header or of data by an extreme one.
 fn overwrite(bytes: &mut [u8], at: usize, random: &mut Random) {
-    let value = [
-        0,
-        1,
-        u64::MAX,
-        1 << 60,
-        i64::MAX as u64,
-        u64::from(u32::MAX),
-    ][random.below(6)];
+    let value = [0, 1, u64::MAX, 1 << 60, i64::MAX as u64, u64::from(u32::MAX)][random.below(6)];
     let value = match random.below(2) {
         0 => value.to_le_bytes(),
         _ => value.to_be_bytes(),

@@ -1,4 +1,4 @@
-"""Data sets of VTK for vtk_matrix.py, and their description as the example gives it."""
+"""Data sets of VTK for test_vtk_matrix.py, and their description as the example gives it."""
 
 import itertools
 import math
@@ -298,7 +298,7 @@ def assert_same(found, expected, place="file"):
             assert_same(found[key], value, f"{place}.{key}")
     elif isinstance(expected, list):
         assert len(found) == len(expected), place
-        for index, pair in enumerate(zip(found, expected)):
+        for index, pair in enumerate(zip(found, expected, strict=True)):
             assert_same(*pair, f"{place}[{index}]")
     elif isinstance(expected, float):
         value = float(found)

@@ -1,6 +1,6 @@
 """Files of VTK read by us, and ours read by VTK, PyVista and meshio: every encoding.
 
-Run with `python -m pytest tests/vtk_matrix.py`; needs vtk, pyvista, meshio, numpy and
+Run with `python -m pytest tests/test_vtk_matrix.py`; needs vtk, pyvista, meshio, numpy and
 cargo. Ours is the example `vtk_dump`, which is built first.
 """
 
@@ -12,8 +12,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-vtk = pytest.importorskip("vtk")
 from vtk.util.numpy_support import vtk_to_numpy
 from vtk_samples import (
     GRIDS,
@@ -27,6 +25,8 @@ from vtk_samples import (
     suffix,
     write,
 )
+
+import vtk
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -73,7 +73,7 @@ def test_we_read_what_vtk_writes(name, dump_program, tmp_path):
         write(data, paths[index], *case)
     lines = dump(dump_program, paths)
     assert len(lines) == len(MATRIX)
-    for path, line in zip(paths, lines):
+    for path, line in zip(paths, lines, strict=True):
         assert_dump(line, data, path.name)
 
 

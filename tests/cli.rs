@@ -297,7 +297,7 @@ fn bad_input_is_one_clear_line() {
         (&["in.vtu", "-o", "out.vtp", "--pde", "uxx + = 1"], "--pde: character 7"),
         (&["in.vtu", "-o", "out.vtp", "--pde", "uxx = w"], "w"),
         (&["in.vtu", "-o", "out.vtp", "--tolerance", "1e-30"], "too small"),
-        (&["in.vtu", "-o", "out.txt"], "must end in .vtp (lines) or .svg (a picture)"),
+        (&["in.vtu", "-o", "out.txt"], "must end in .vtp or .vtu (lines) or .svg (a picture)"),
         (&["in.vtu", "-o", "nowhere/out.vtp"], "nowhere"),
     ];
     let text = ["a"; 9].map(String::from).to_vec();

@@ -131,15 +131,18 @@ def test_every_reader_gives_the_same(contour, encoding):
         assert np.array_equal(lines.cell_data[name], raw.cell_data[name]), name
 
 
-def test_meshio_reads_our_lines(contour, tmp_path):
-    """meshio has no reader of .vtp; it reads what VTK makes of it, with all arrays."""
-    lines = pyvista.read(contour(SAMPLES / "problem4.vtu", "--segments"))
-    grid = lines.cast_to_unstructured_grid()
-    grid.save(tmp_path / "lines.vtu")
-    mesh = meshio.read(tmp_path / "lines.vtu")
-    assert len(mesh.cells_dict["line"]) == lines.n_lines
+@pytest.mark.parametrize("encoding", ["raw", "zlib", "base64", "ascii"])
+def test_meshio_reads_our_lines(contour, encoding):
+    """meshio has no reader of .vtp, none of LZ4 and no polylines: segments as .vtu."""
+    options = ["--segments", "--encoding", encoding]
+    lines = pyvista.read(contour(SAMPLES / "problem4.vtu", *options))
+    mesh = meshio.read(contour(SAMPLES / "problem4.vtu", *options, name="lines.vtu"))
     assert np.array_equal(mesh.points, lines.points)
-    assert np.array_equal(mesh.point_data["u"], lines.point_data["u"])
+    assert np.array_equal(mesh.cells_dict["line"], lines.lines.reshape(-1, 3)[:, 1:])
+    for name in lines.point_data:
+        assert np.array_equal(mesh.point_data[name], lines.point_data[name]), name
+    for name in lines.cell_data:
+        assert np.array_equal(mesh.cell_data[name][0], lines.cell_data[name]), name
 
 
 def test_data_travel_as_in_vtk(contour):

@@ -110,7 +110,8 @@ pub struct ContourArguments {
     #[arg(required = true)]
     input: Option<PathBuf>,
 
-    /// The lines: .vtp for ParaView, VTK and pyvista, .svg for a picture
+    /// The lines: .vtp for ParaView, VTK and pyvista, .vtu for tools that read no .vtp,
+    /// .svg for a picture
     #[arg(short, long, value_name = "FILE", required = true)]
     output: Option<PathBuf>,
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use vtu2contour::filter::{Contoured, FilterError, Stage, contour, picture};
-use vtu2contour::vtk::{AtomicFile, Selection, VtuFile, write_vtp};
+use vtu2contour::vtk::{AtomicFile, Selection, VtuFile, write_vtp, write_vtu};
 
 use super::arguments::ContourArguments;
 use super::messages::Messages;
@@ -15,6 +15,7 @@ use super::stats::{Clock, Stats, Step};
 #[derive(Clone, Copy)]
 enum Format {
     Vtp,
+    Vtu,
     Svg,
 }
 
@@ -54,11 +55,11 @@ fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Res
         .map_err(|error| explained(&error, arguments.input()))?;
     clock.next(Step::Write);
     messages.stage("writing");
-    write(arguments, format, &contoured)?;
-    let seconds = clock.stop();
     tell(&contoured, messages);
+    let stats = Stats::new(&contoured);
+    write(arguments, format, contoured)?;
     if let Some(path) = &arguments.output_options.stats {
-        write_stats(path, &Stats::new(&contoured, seconds))?;
+        write_stats(path, &stats.with_times(clock.stop()))?;
     }
     Ok(())
 }
@@ -66,9 +67,10 @@ fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Res
 fn format_of(output: &Path) -> Result<Format> {
     match output.extension().and_then(|extension| extension.to_str()) {
         Some("vtp") => Ok(Format::Vtp),
+        Some("vtu") => Ok(Format::Vtu),
         Some("svg") => Ok(Format::Svg),
         _ => bail!(
-            "cannot write '{}': the output's name must end in .vtp (lines) or .svg (a picture)",
+            "cannot write '{}': the output's name must end in .vtp or .vtu (lines) or .svg (a picture)",
             output.display()
         ),
     }
@@ -82,15 +84,19 @@ fn explained(error: &FilterError, input: &Path) -> anyhow::Error {
     }
 }
 
-fn write(arguments: &ContourArguments, format: Format, contoured: &Contoured) -> Result<()> {
+fn write(arguments: &ContourArguments, format: Format, contoured: Contoured) -> Result<()> {
     let options = &arguments.output_options;
     match format {
         Format::Vtp => {
             write_vtp(arguments.output(), &contoured.poly_data, options.write_options())?;
         }
+        Format::Vtu => {
+            let lines = contoured.poly_data.into_grid();
+            write_vtu(arguments.output(), &lines, options.write_options())?;
+        }
         Format::Svg => {
             let mut file = AtomicFile::create(arguments.output())?;
-            picture(contoured, options.mesh).write(&mut file)?;
+            picture(&contoured, options.mesh).write(&mut file)?;
             file.commit()?;
         }
     }

@@ -102,8 +102,13 @@ impl Clock {
 }
 
 impl Stats {
-    /// The counts of a contouring and its times.
-    pub fn new(contoured: &Contoured, seconds: Seconds) -> Self {
+    /// The times of the job.
+    pub fn with_times(self, seconds: Seconds) -> Self {
+        Self { seconds, ..self }
+    }
+
+    /// The counts of a contouring.
+    pub fn new(contoured: &Contoured) -> Self {
         let Contoured { poly_data, lines, report, .. } = contoured;
         let limit = |value: f64| value.is_finite().then_some(value);
         Self {
@@ -128,7 +133,7 @@ impl Stats {
                 lines: poly_data.lines.len(),
                 closed: lines.lines.iter().filter(|line| line.closed).count(),
             },
-            seconds,
+            seconds: Seconds::default(),
         }
     }
 }

@@ -2,89 +2,13 @@
 
 use super::cell_type::CellCounts;
 use super::error::FilterError;
-use super::line_output::{LineOutput, OutputOptions};
-use super::scalars::{Component, GradientSource};
+use super::line_output::LineOutput;
+use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
 use super::triangles::Triangles;
-use crate::contour::lines::{ContourLines, Counts, Method, Resolution, contour_lines};
-use crate::contour::{CellRanges, Levels};
-use crate::interpolant::Predictor;
-use crate::vtk::{ArrayType, PolyData, UnstructuredGrid};
-
-/// Which interpolant to contour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum InterpolantKind {
-    /// The pure cubic interpolant of values, gradients and PDE.
-    #[default]
-    Pci,
-    /// The linear interpolant of the values, as VTK's own filter.
-    Linear,
-}
-
-/// What to contour, and how.
-#[derive(Clone, Debug)]
-pub struct ContourOptions {
-    /// The point array; the active scalars, or the only one, if not given.
-    pub array: Option<String>,
-    /// What of it, if it has several components.
-    pub component: Option<Component>,
-    /// Where its gradient comes from.
-    pub gradient: GradientSource,
-    /// The levels.
-    pub levels: Levels,
-    /// How curves are drawn.
-    pub method: Method,
-    /// The greatest distance between neighbouring points, in units of length.
-    pub spacing: Option<f64>,
-    /// The greatest distance of a segment from the contour, in units of length.
-    /// Without this and `spacing`: [`DEFAULT_TOLERANCE`] times the diagonal.
-    pub tolerance: Option<f64>,
-    /// The interpolant.
-    pub interpolant: InterpolantKind,
-    /// The PDE as text, see [`crate::pde`].
-    pub pde: Option<String>,
-    /// Its parameters.
-    pub parameters: Vec<(String, f64)>,
-    /// Where its right-hand side takes the solution from.
-    pub predictor: Predictor,
-    /// Points of single precision; as the grid's own if not given.
-    pub single: Option<bool>,
-    /// Two-point segments instead of polylines.
-    pub segments: bool,
-    /// Put out `Gradients`.
-    pub gradients: bool,
-    /// Put out `Normals`.
-    pub normals: bool,
-}
-
-/// The default tolerance, as a part of the bounding box's diagonal: a tenth of a
-/// pixel where a picture of the mesh is ten thousand pixels wide.
-pub const DEFAULT_TOLERANCE: f64 = 1e-5;
-
-/// The least spacing or tolerance, as a part of the diagonal.
-const LEAST: f64 = 1e-6;
-
-impl Default for ContourOptions {
-    fn default() -> Self {
-        Self {
-            array: None,
-            component: None,
-            gradient: GradientSource::default(),
-            levels: Levels::Equal { count: 10, range: None },
-            method: Method::default(),
-            spacing: None,
-            tolerance: None,
-            interpolant: InterpolantKind::default(),
-            pde: None,
-            parameters: Vec::new(),
-            predictor: Predictor::default(),
-            single: None,
-            segments: false,
-            gradients: false,
-            normals: false,
-        }
-    }
-}
+use crate::contour::CellRanges;
+use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
+use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,38 +106,6 @@ pub fn contour(
     };
     let report = report.with_warnings(&lines);
     Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })
-}
-
-impl ContourOptions {
-    /// The limits of spacing and tolerance, on a mesh of the given diagonal.
-    fn resolution(&self, diagonal: f64) -> Result<Resolution, FilterError> {
-        let limits = [("--spacing", self.spacing), ("--tolerance", self.tolerance)];
-        for (option, value) in limits.into_iter().filter_map(|(o, v)| Some((o, v?))) {
-            if value.is_nan() || value <= 0.0 {
-                return Err(FilterError::NotPositive { option, value });
-            }
-            let least = LEAST * diagonal;
-            if value < least {
-                return Err(FilterError::TooSmall { option, value, least });
-            }
-        }
-        let default =
-            if self.spacing.is_some() { f64::INFINITY } else { DEFAULT_TOLERANCE * diagonal };
-        Ok(Resolution {
-            spacing: self.spacing.unwrap_or(f64::INFINITY),
-            tolerance: self.tolerance.unwrap_or(default),
-        })
-    }
-
-    fn output(&self, grid: &UnstructuredGrid) -> OutputOptions {
-        let as_grid = grid.points.array_type() == ArrayType::F32;
-        OutputOptions {
-            segments: self.segments,
-            single: self.single.unwrap_or(as_grid),
-            gradients: self.gradients,
-            normals: self.normals,
-        }
-    }
 }
 
 impl Report {

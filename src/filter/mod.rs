@@ -8,6 +8,7 @@ mod cell_type;
 mod contour_filter;
 mod error;
 mod line_output;
+mod options;
 mod picture;
 mod resample;
 mod scalars;
@@ -15,11 +16,10 @@ mod solution;
 mod triangles;
 
 pub use cell_type::{CellCounts, dimension, name as cell_type_name};
-pub use contour_filter::{
-    ContourOptions, Contoured, DEFAULT_TOLERANCE, InterpolantKind, Report, Stage, contour,
-};
+pub use contour_filter::{Contoured, Report, Stage, contour};
 pub use error::FilterError;
 pub use line_output::ORIGINAL_CELLS;
+pub use options::{ContourOptions, DEFAULT_TOLERANCE, InterpolantKind};
 pub use picture::picture;
 pub use scalars::{ChosenArray, Component, GradientSource, Gradients};
 pub use solution::{Interpolated, Solution};

@@ -1,7 +1,7 @@
 //! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
 
-use super::contour_filter::{ContourOptions, InterpolantKind};
 use super::error::FilterError;
+use super::options::{ContourOptions, InterpolantKind};
 use super::scalars::{ChosenArray, Gradients};
 use super::triangles::{Triangles, is_ghost};
 use crate::contour::CellRanges;

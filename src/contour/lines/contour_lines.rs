@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::bezier::Bezier;
 use super::crossing::{Crossing, Owner};
-use super::curve::{Method, Resolution};
+use super::curve::Resolution;
+use super::method::Method;
 use super::start::FlatEdge;
 use super::stitch::{Chain, End, Link, Stitched, stitch};
 use super::trace::{InnerPoint, Strand, Traces, Tracing, trace};

@@ -1,34 +1,8 @@
-//! Stage three: the curve between two crossings (thesis, section 2.3.3).
-//!
-//! Four methods. *Intercept* finds points of the arc until they are close enough
-//! and joins them by straight lines. The others draw cubic Hermite pieces between
-//! points of the arc, written as Bézier curves: *SODE* takes one coordinate as a
-//! function of the other, *ODEA* takes both as functions of arc length, and
-//! *AODEA* adds points until the pieces are short, or close, enough.
-//!
-//! Hermite pieces are near the contour, not on it. They serve where curves can be
-//! drawn (SVG). Where points are wanted they are only guesses: each is moved onto
-//! the contour ([`Arc::land`]), so that every point of the output lies on its
-//! level, whatever the method.
+//! Curves along an arc: what all methods of stage three share.
 
 use super::arc::{Arc, Node};
 use super::bezier::Bezier;
-use super::hermite;
 use crate::mesh::Vector;
-
-/// How the curve between two crossings is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// Points on the contour, joined by straight lines.
-    Intercept,
-    /// Hermite pieces `y(x)` or `x(y)`.
-    Sode,
-    /// Hermite pieces by arc length.
-    Odea,
-    /// Hermite pieces by arc length, as many as the resolution asks for.
-    #[default]
-    Aodea,
-}
 
 /// How fine the output is. A limit that is not wanted is infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,51 +25,7 @@ pub struct Drawing {
 }
 
 /// Halvings of an arc after which its points are as close as they get.
-const MAX_DEPTH: u32 = 16;
-
-/// Draws the arc between two of its points into `drawing`.
-pub fn draw(
-    arc: &Arc,
-    ends: [&Node; 2],
-    method: Method,
-    resolution: &Resolution,
-    drawing: &mut Drawing,
-) {
-    let [a, b] = ends;
-    match method {
-        Method::Intercept => {
-            intercept(arc, a, b, resolution, MAX_DEPTH, &mut drawing.points);
-            let stations: Vec<Vector> = std::iter::once(a)
-                .chain(&drawing.points)
-                .chain(std::iter::once(b))
-                .map(|node| node.position)
-                .collect();
-            drawing.curves.extend(stations.windows(2).map(|pair| Bezier::line(pair[0], pair[1])));
-        }
-        Method::Sode => hermite::sode(arc, a, b, resolution, drawing),
-        Method::Odea => hermite::odea(arc, a, b, resolution, drawing),
-        Method::Aodea => hermite::aodea(arc, a, b, resolution, MAX_DEPTH, drawing),
-    }
-}
-
-/// The Intercept method (figure 2.19): halves the arc until the points are close
-/// enough.
-fn intercept(
-    arc: &Arc,
-    a: &Node,
-    b: &Node,
-    resolution: &Resolution,
-    depth: u32,
-    points: &mut Vec<Node>,
-) {
-    if depth == 0 || is_fine(arc, a, b, resolution) {
-        return;
-    }
-    let m = middle(arc, a, b);
-    intercept(arc, a, &m, resolution, depth - 1, points);
-    points.push(m);
-    intercept(arc, &m, b, resolution, depth - 1, points);
-}
+pub const MAX_DEPTH: u32 = 16;
 
 /// The middle of the arc: where the line through the middle of the chord, along
 /// the mean of the normals at its ends, meets the contour.
@@ -111,7 +41,7 @@ pub fn middle(arc: &Arc, a: &Node, b: &Node) -> Node {
 }
 
 /// Whether the straight line between two points of an arc is fine enough.
-fn is_fine(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution) -> bool {
+pub fn is_fine(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution) -> bool {
     let chord = b.position - a.position;
     let at = |t: f64| a.position + chord * t;
     chord.norm() <= resolution.spacing && is_near(arc, &at, resolution.tolerance)

@@ -3,7 +3,8 @@
 use super::arc::{Arc, Node};
 use super::bezier::Bezier;
 use super::crossing::Crossing;
-use super::curve::{Drawing, Method, Resolution, draw};
+use super::curve::{Drawing, Resolution};
+use super::method::{Method, draw};
 use super::piece::{Cell, EdgeCrossing, Piece};
 use super::situation::{Division, Situation, situation};
 use super::start::{FlatEdge, first_piece, flat_edges};

@@ -7,15 +7,83 @@ mod crossing;
 mod curve;
 mod hermite;
 mod intercept;
+mod line_builder;
 mod method;
 mod piece;
 mod situation;
 mod start;
 mod stitch;
 mod trace;
+mod traces;
 
 pub use bezier::Bezier;
-pub use contour_lines::{ContourLines, Counts, LinePoint, Polyline, contour_lines};
-pub use crossing::Owner;
+pub use contour_lines::{ContourLines, Counts, LinePoint, Polyline};
 pub use curve::Resolution;
 pub use method::Method;
+
+use rayon::prelude::*;
+
+use crate::contour::CellRanges;
+use crate::interpolant::TriangleCubics;
+use line_builder::add_level;
+use trace::{Tracing, trace};
+use traces::Traces;
+
+/// Coefficients this close to the level, as a multiple of the largest magnitude
+/// in the data, are on the level: the error of computing them is as large.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Cells traced at a time by one thread.
+const CHUNK: usize = 64;
+
+/// Contour lines of `interpolant` at the given levels (finite, ascending).
+///
+/// Every component of every contour is found: cells are passed over only where
+/// the Bernstein coefficients exclude a contour, and pieces are drawn only with
+/// the A-patch certificate; [`Counts::unresolved`] tells where that failed. All
+/// points lie on their level to rounding. The result does not depend on the
+/// number of threads.
+///
+/// `ranges` must be those of `interpolant`; they serve any number of calls.
+///
+/// Source: thesis, section 2.3.
+pub fn contour_lines(
+    interpolant: &dyn TriangleCubics,
+    ranges: &CellRanges,
+    levels: &[f64],
+    method: Method,
+    resolution: Resolution,
+) -> ContourLines {
+    let mut lines = ContourLines { levels: levels.to_vec(), ..Default::default() };
+    lines.counts.unusable = ranges.unusable();
+    let magnitude = ranges.magnitude();
+    for (place, &level) in levels.iter().enumerate() {
+        let rounding = ROUNDING * magnitude.max(level.abs());
+        let tracing = Tracing { level, rounding, method, resolution };
+        let cells = ranges.cells_at(level, rounding);
+        lines.counts.active += cells.len();
+        let mut traces = trace_cells(interpolant, &tracing, &cells);
+        traces.add_flat_edges(interpolant.mesh());
+        lines.counts.divided += traces.divided;
+        lines.counts.unresolved += traces.unresolved;
+        add_level(&mut lines, place, &traces);
+    }
+    lines
+}
+
+fn trace_cells(interpolant: &dyn TriangleCubics, tracing: &Tracing, cells: &[u32]) -> Traces {
+    let mesh = interpolant.mesh();
+    let chunks: Vec<Traces> = cells
+        .par_chunks(CHUNK)
+        .map(|chunk| {
+            let mut traces = Traces::default();
+            for &cell in chunk {
+                let number = cell as usize;
+                let (cubic, frame) = (interpolant.cubic(number), mesh.frame(number));
+                trace(tracing, cell, mesh.triangles()[number], &cubic, &frame, &mut traces);
+            }
+            traces
+        })
+        .collect();
+    chunks.into_iter().fold(Traces::default(), Traces::joined)
+}

@@ -1,7 +1,7 @@
 //! Strands joined into polylines, by the owners of their ends.
 
 use super::crossing::Owner;
-use super::trace::Strand;
+use super::traces::Strand;
 use crate::mesh::Vector;
 
 /// One end of a strand.

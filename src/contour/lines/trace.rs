@@ -1,15 +1,14 @@
 //! One cell at one level: from its cubic to the arcs of its contour.
 
-use super::arc::{Arc, Node};
-use super::bezier::Bezier;
-use super::crossing::Crossing;
-use super::curve::{Drawing, Resolution};
+use super::arc::Arc;
+use super::curve::Resolution;
 use super::method::{Method, draw};
 use super::piece::{Cell, EdgeCrossing, Piece};
 use super::situation::{Division, Situation, situation};
-use super::start::{FlatEdge, first_piece, flat_edges};
-use crate::bernstein::{Barycentric, Sign, TriangleCubic};
-use crate::mesh::{TriangleFrame, Vector};
+use super::start::{first_piece, flat_edges};
+use super::traces::Traces;
+use crate::bernstein::{Sign, TriangleCubic};
+use crate::mesh::TriangleFrame;
 
 /// What all cells of a level share.
 #[derive(Clone, Copy, Debug)]
@@ -22,49 +21,6 @@ pub struct Tracing {
     pub method: Method,
     /// How finely.
     pub resolution: Resolution,
-}
-
-/// An arc of the contour in a cell, directed with the higher side on its left.
-#[derive(Clone, Copy, Debug)]
-pub struct Strand {
-    /// Its first point.
-    pub start: Crossing,
-    /// Its last point.
-    pub end: Crossing,
-    /// The cell.
-    pub cell: u32,
-    /// Where its inner points begin in [`Traces::points`]; they end where those
-    /// of the next strand begin.
-    pub first_point: usize,
-    /// The same for its pieces in [`Traces::curves`].
-    pub first_curve: usize,
-}
-
-/// A point of a strand between its ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InnerPoint {
-    /// Where in the cell.
-    pub at: Barycentric,
-    /// Where in space.
-    pub position: Vector,
-}
-
-/// What was found in a series of cells.
-#[derive(Debug, Default)]
-pub struct Traces {
-    /// The arcs.
-    pub strands: Vec<Strand>,
-    /// Inner points of all arcs.
-    pub points: Vec<InnerPoint>,
-    /// Bézier pieces of all arcs.
-    pub curves: Vec<Bezier>,
-    /// Edges on the level, once from each of their cells.
-    pub flat_edges: Vec<FlatEdge>,
-    /// Cells that were divided.
-    pub divided: usize,
-    /// Pieces whose contour could not be settled.
-    pub unresolved: usize,
-    drawing: Drawing,
 }
 
 /// Divisions of a piece beyond which it is left unresolved. Each halves an edge,
@@ -198,35 +154,4 @@ fn pairs_around(piece: &Piece, side: Sign) -> Vec<[u32; 2]> {
         Sign::Below => [pair[0], pair[1]],
     };
     border.chunks_exact(2).map(directed).collect()
-}
-
-impl Traces {
-    /// Adds straight strands between pairs of crossings.
-    fn add_straight(&mut self, cell: &Cell, pairs: &[[u32; 2]]) {
-        for pair in pairs {
-            let [start, end] = pair.map(|crossing| cell.crossings[crossing as usize]);
-            self.add(cell, start, end, &mut Drawing::default());
-        }
-    }
-
-    /// Adds a strand and empties its drawing; passes over one without length.
-    fn add(&mut self, cell: &Cell, start: Crossing, end: Crossing, drawing: &mut Drawing) {
-        if drawing.points.is_empty() && start.position == end.position {
-            drawing.curves.clear();
-            return;
-        }
-        self.strands.push(Strand {
-            start,
-            end,
-            cell: cell.number,
-            first_point: self.points.len(),
-            first_curve: self.curves.len(),
-        });
-        if drawing.curves.is_empty() {
-            drawing.curves.push(Bezier::line(start.position, end.position));
-        }
-        let inner = |node: Node| InnerPoint { at: node.at, position: node.position };
-        self.points.extend(drawing.points.drain(..).map(inner));
-        self.curves.append(&mut drawing.curves);
-    }
 }

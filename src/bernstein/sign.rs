@@ -32,3 +32,17 @@ impl Not for Sign {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_the_level_counts_as_above() {
+        assert_eq!(
+            [-1.0, -0.0, 0.0, 1.0].map(Sign::of),
+            [Sign::Below, Sign::Above, Sign::Above, Sign::Above]
+        );
+        assert_eq!(!Sign::Above, Sign::Below);
+    }
+}

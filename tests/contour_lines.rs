@@ -187,6 +187,25 @@ fn flat_cells_are_outlined_once() {
 }
 
 #[test]
+fn noise_on_the_level_is_the_level() {
+    // sin(π x) sin(π y) is not quite zero at x = 1 and y = 1: 1e-16, or 1e-32
+    let mesh = grid(6);
+    let pi = std::f64::consts::PI;
+    let value = |p: &Vector| (pi * p.x).sin() * (pi * p.y).sin();
+    let gradient = |p: &Vector| {
+        Vector::new((pi * p.x).cos() * (pi * p.y).sin(), (pi * p.x).sin() * (pi * p.y).cos(), 0.0)
+            * pi
+    };
+    let (values, gradients) = nodal(&mesh, value, gradient);
+    assert!(values.iter().any(|u| u.abs() > 0.0 && u.abs() < 1e-15));
+    let pci = Pci::new(&mesh, Field { values: &values, gradients: &gradients });
+    let lines = contour(&pci, &[0.0], Method::Aodea);
+    assert_eq!(lines.counts.unresolved, 0);
+    assert_eq!(lines.lines.len(), 1);
+    assert!(lines.lines[0].closed && (lengths(&lines)[0] - 4.0).abs() < 1e-12);
+}
+
+#[test]
 fn a_nodal_line_ends_on_a_boundary_where_the_solution_is_zero() {
     // u = y (1 - y) (x - 0.3): zero at the bottom, at the top and on x = 0.3,
     // which meets both inside an edge

@@ -144,3 +144,123 @@ fn longest_edge(corners: &[Vector; 3]) -> Division {
     };
     Division::Edge { edge, t: 0.5 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::piece::Cell;
+    use super::super::start::first_piece;
+    use super::*;
+    use crate::bernstein::{SegmentCubic, TriangleCubic};
+    use crate::mesh::TriangleFrame;
+
+    /// The situation of the cubic with the given edges and centre, on a triangle
+    /// whose longest edge is edge 0.
+    fn decide(edges: [[f64; 4]; 3], centre: f64) -> Situation {
+        let [opposite_0, opposite_1, opposite_2] = edges;
+        assert_eq!(opposite_0[3], opposite_1[0]);
+        assert_eq!(opposite_1[3], opposite_2[0]);
+        assert_eq!(opposite_2[3], opposite_0[0]);
+        let toward = |i: usize, j: usize| {
+            let edge = 3 - i - j;
+            if j == (i + 1) % 3 { edges[edge][1] } else { edges[edge][2] }
+        };
+        let vertex = [opposite_2[0], opposite_0[0], opposite_1[0]];
+        let cubic = TriangleCubic::assemble(vertex, toward, centre);
+        for (edge, coefficients) in edges.iter().enumerate() {
+            assert_eq!(cubic.edge(edge).coefficients, *coefficients);
+        }
+        let corners = [Vector::zeros(), Vector::x() * 2.0, Vector::y() * 2.0];
+        let frame = TriangleFrame::new(corners);
+        let mut cell = Cell { number: 0, cubic: &cubic, frame: &frame, crossings: Vec::new() };
+        let piece = first_piece(&mut cell, &cubic, [0, 1, 2]);
+        situation(&piece, &corners)
+    }
+
+    /// An edge from `start` to `end` with zeros at the given places.
+    fn edge_with_roots(roots: [f64; 3]) -> [f64; 4] {
+        let [a, b, c] = roots;
+        let (sum, pairs, product) = (a + b + c, a * b + b * c + c * a, a * b * c);
+        [
+            -product,
+            pairs / 3.0 - product,
+            (2.0 * pairs - sum) / 3.0 - product,
+            1.0 - sum + pairs - product,
+        ]
+    }
+
+    fn divided_at(situation: Situation) -> (usize, f64) {
+        match situation {
+            Situation::Undecided(Division::Edge { edge, t }) => (edge, t),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    const BELOW: [f64; 4] = [-1.0; 4];
+
+    #[test]
+    fn two_crossings_and_a_certificate_are_the_desired_situation() {
+        let third = 1.0 / 3.0;
+        let down = [1.0, third, -third, -1.0];
+        let up = [-1.0, -third, third, 1.0];
+        assert_eq!(decide([BELOW, up, down], -third), Situation::Simple { apex: 0 });
+        assert_eq!(decide([BELOW; 3], -1.0), Situation::Empty);
+    }
+
+    #[test]
+    fn case_1_an_island_is_divided_through_its_top() {
+        let (_, t) = divided_at(decide([BELOW; 3], 20.0));
+        assert!((t - 0.5).abs() < 0.1, "{t}");
+        // nothing hidden, but not certified: the longest edge
+        assert_eq!(divided_at(decide([BELOW; 3], 3.0)), (0, 0.5));
+    }
+
+    #[test]
+    fn cases_2_and_3_a_tangent_is_divided_where_it_touches() {
+        // -(t - 0.4)²: touches the level from below; the inside is above
+        let square = |t: f64| -(t - 0.4_f64).powi(2);
+        let touching = SegmentCubic::hermite(square(0.0), 0.8, square(1.0), -1.2).coefficients;
+        let (low, high) = (touching[0], touching[3]);
+        let rising = [high, high, low, low];
+        let flat = [low, low, low, low];
+        let (edge, t) = divided_at(decide([touching, rising, flat], 5.0));
+        assert_eq!(edge, 0);
+        assert!((t - 0.4).abs() < 1e-6, "{t}");
+        // with two crossings besides
+        let crossing = [high, high, 3.0, 3.0];
+        let back = [3.0, low, low, low];
+        let (edge, t) = divided_at(decide([touching, crossing, back], 1.0));
+        assert_eq!(edge, 0);
+        assert!((t - 0.4).abs() < 1e-6, "{t}");
+    }
+
+    #[test]
+    fn case_4_four_crossings_are_divided_between_two_of_one_edge() {
+        // 2-1-1: two on edge 0, one on each other edge
+        let two = edge_with_roots([0.2, 0.6, 3.0]);
+        let (first, last) = (two[0], two[3]);
+        let one = [last, last, 1.0, 1.0];
+        let other = [1.0, 1.0, first, first];
+        let (edge, t) = divided_at(decide([two, one, other], 0.0));
+        assert_eq!(edge, 0);
+        assert!((t - 0.4).abs() < 1e-12, "{t}");
+        // 3-1-0: the widest gap of three
+        let three = edge_with_roots([0.1, 0.3, 0.8]);
+        let (first, last) = (three[0], three[3]);
+        let one = [last, last, first, first];
+        let (edge, t) = divided_at(decide([three, one, [first; 4]], 0.0));
+        assert_eq!(edge, 0);
+        assert!((t - 0.55).abs() < 1e-12, "{t}");
+    }
+
+    #[test]
+    fn case_5_more_than_four_crossings_are_divided_in_four() {
+        let wave = edge_with_roots([0.2, 0.5, 0.8]);
+        let back = wave.map(|c| -c);
+        let down = [wave[3], -1.0, 1.0, -wave[3]];
+        // edges 0 and 1 have three crossings each, and edge 2 has none
+        let flat = [back[3], back[3], wave[0], wave[0]];
+        let situation = decide([wave, back.map(|c| c * (wave[3] / back[0])), flat], 0.0);
+        let _ = down;
+        assert_eq!(situation, Situation::Undecided(Division::Four));
+    }
+}

@@ -16,47 +16,74 @@ impl TriangleCubic {
     }
 
     /// This cubic divided by the barycentric coordinates of the sides on which it
-    /// is zero, again written as a cubic. Inside the triangle it has the same sign.
+    /// is zero, as often as it can be, and again written as a cubic. Inside the
+    /// triangle it has the same sign.
     pub fn without_zero_sides(&self) -> TriangleCubic {
-        let zero = self.zero_sides();
-        let sides: Vec<usize> = (0..3).filter(|&side| zero[side]).collect();
-        let cubic = |m: Exponents| self.coefficient(m);
-        match sides[..] {
-            [] => *self,
-            [side] => elevated(&divided(&cubic, 3, side)),
-            [first, second] => {
-                let quadratic = divided(&cubic, 3, first);
-                let linear = divided(&quadratic, 2, second);
-                TriangleCubic::linear([linear([1, 0, 0]), linear([0, 1, 0]), linear([0, 0, 1])])
-            }
-            _ => TriangleCubic::new([self.coefficients[TriangleCubic::CENTRE]; 10]),
+        let mut polynomial = Polynomial { degree: 3, coefficients: *self };
+        while let Some(side) = polynomial.zero_side() {
+            polynomial = polynomial.divided(side);
         }
+        polynomial.elevated()
     }
 }
 
-/// The coefficients, of one degree less, of a polynomial divided by the
-/// barycentric coordinate `side`.
-fn divided<'a>(
-    polynomial: &'a dyn Fn(Exponents) -> f64,
+/// A polynomial of degree three or less. The coefficient with exponents `[i, j, k]`
+/// stands where a cubic has the one with exponents `[3 - j - k, j, k]`.
+struct Polynomial {
     degree: usize,
-    side: usize,
-) -> impl Fn(Exponents) -> f64 + 'a {
-    move |mut exponents| {
-        exponents[side] += 1;
-        polynomial(exponents) * degree as f64 / exponents[side] as f64
-    }
+    coefficients: TriangleCubic,
 }
 
-/// A quadratic written as a cubic.
-fn elevated(quadratic: &dyn Fn(Exponents) -> f64) -> TriangleCubic {
-    TriangleCubic::from_coefficients(|exponents| {
-        let term = |n: usize| {
-            let mut lower = exponents;
-            lower[n] -= 1;
-            exponents[n] as f64 * quadratic(lower)
+impl Polynomial {
+    fn coefficient(&self, [_, j, k]: Exponents) -> f64 {
+        self.coefficients.coefficient([3 - j - k, j, k])
+    }
+
+    /// A polynomial with the coefficients given by a function of their exponents.
+    fn new(degree: usize, coefficient: impl Fn(Exponents) -> f64) -> Self {
+        let coefficients = TriangleCubic::from_coefficients(|[_, j, k]| {
+            if j + k <= degree { coefficient([degree - j - k, j, k]) } else { 0.0 }
+        });
+        Self { degree, coefficients }
+    }
+
+    /// A side on which the polynomial is zero; none if it is zero everywhere, or
+    /// constant.
+    fn zero_side(&self) -> Option<usize> {
+        let zero = |side: usize| {
+            let all = (0..=self.degree).flat_map(|j| (0..=self.degree - j).map(move |k| (j, k)));
+            let mut on_side = all.map(|(j, k)| [self.degree - j - k, j, k]);
+            on_side.all(|exponents| exponents[side] > 0 || self.coefficient(exponents) == 0.0)
         };
-        (0..3).filter(|&n| exponents[n] > 0).map(term).sum::<f64>() / 3.0
-    })
+        let everywhere = self.coefficients.coefficients == [0.0; 10];
+        (0..3).find(|&side| self.degree > 0 && !everywhere && zero(side))
+    }
+
+    /// The polynomial divided by the barycentric coordinate of a side on which it
+    /// is zero.
+    fn divided(&self, side: usize) -> Self {
+        Self::new(self.degree - 1, |mut exponents| {
+            exponents[side] += 1;
+            self.coefficient(exponents) * self.degree as f64 / exponents[side] as f64
+        })
+    }
+
+    /// The polynomial written as a cubic.
+    fn elevated(self) -> TriangleCubic {
+        let mut polynomial = self;
+        while polynomial.degree < 3 {
+            let degree = polynomial.degree + 1;
+            polynomial = Self::new(degree, |exponents| {
+                let term = |n: usize| {
+                    let mut lower = exponents;
+                    lower[n] -= 1;
+                    exponents[n] as f64 * polynomial.coefficient(lower)
+                };
+                (0..3).filter(|&n| exponents[n] > 0).map(term).sum::<f64>() / degree as f64
+            });
+        }
+        polynomial.coefficients
+    }
 }
 
 #[cfg(test)]
@@ -89,9 +116,24 @@ mod tests {
                     product *= at[side];
                 }
             }
-            // three factors leave the constant 6 b_111; only its sign matters
-            let scale = if sides == [true; 3] { 6.0 } else { 1.0 };
-            prop_assert!((scale * product - cubic.value(&at)).abs() < 1e-14);
+            prop_assert!((product - cubic.value(&at)).abs() < 1e-14);
+        }
+
+        /// λ₀² ℓ and λ₀² λ₁: sides that are zero twice.
+        #[test]
+        fn double_sides(c in prop::array::uniform3(0.1..1.0f64), s in 0.0..0.5f64, t in 0.0..0.5f64) {
+            let at = [1.0 - s - t, s, t];
+            // 3 b_ijk of λ₀² (c₀ λ₀ + c₁ λ₁ + c₂ λ₂)
+            let cubic = TriangleCubic::from_coefficients(|m| match m {
+                [3, 0, 0] => c[0],
+                [2, 1, 0] => c[1] / 3.0,
+                [2, 0, 1] => c[2] / 3.0,
+                _ => 0.0,
+            });
+            let linear = c[0] * at[0] + c[1] * at[1] + c[2] * at[2];
+            prop_assert!((cubic.without_zero_sides().value(&at) - linear).abs() < 1e-14);
+            let cubic = TriangleCubic::from_coefficients(|m| if m == [2, 1, 0] { c[1] / 3.0 } else { 0.0 });
+            prop_assert!((cubic.without_zero_sides().value(&at) - c[1]).abs() < 1e-14);
         }
     }
 }

@@ -55,24 +55,26 @@ impl CellRanges {
         self.unusable
     }
 
-    /// The cells whose range holds `level`, give or take `tolerance`, ascending.
-    pub fn cells_at(&self, level: f64, tolerance: f64) -> Vec<u32> {
+    /// The range of a cell; empty (infinity to minus infinity) if it is unusable.
+    pub fn range(&self, cell: usize) -> [f64; 2] {
+        self.ranges[cell]
+    }
+
+    /// The cells whose range holds `level`, give or take the `tolerance` of that
+    /// range, ascending.
+    pub fn cells_at(&self, level: f64, tolerance: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<u32> {
+        let holds = |range: [f64; 2]| {
+            let [low, high] = range;
+            // the exact comparison settles nearly all cells
+            let outside = level < low || level > high;
+            range != EMPTY && (!outside || (low - level).max(level - high) <= tolerance(range))
+        };
         self.ranges
             .par_iter()
             .enumerate()
-            .filter(|(_, [low, high])| low - tolerance <= level && level <= high + tolerance)
+            .filter(|(_, range)| holds(**range))
             .map(|(cell, _)| cell as u32)
             .collect()
-    }
-
-    /// The largest magnitude in any range; zero without usable cells.
-    pub fn magnitude(&self) -> f64 {
-        let magnitude = |range: &[f64; 2]| range[0].abs().max(range[1].abs());
-        self.ranges
-            .par_iter()
-            .filter(|&&range| range != EMPTY)
-            .map(magnitude)
-            .reduce(|| 0.0, f64::max)
     }
 
     /// Least and greatest value that the interpolant attains, by the recursive

@@ -1,14 +1,16 @@
 //! The arc of a contour through a simple piece, as a graph over rays.
 //!
-//! In a simple piece every ray from the apex meets the contour once, so a ray's
-//! number along the base is a coordinate along the arc. Whatever way a new point
+//! In a simple piece every ray from the apex meets the contour at most once, so
+//! where a ray meets the base is a coordinate along the arc. Whatever way a new point
 //! of the arc is found, its ray must lie between the rays of its neighbours:
 //! that keeps the points in order and on this arc, and when it fails the ray
 //! between them is a way that cannot.
 
 use nalgebra::Matrix3;
 
-use crate::bernstein::{Barycentric, TriangleCubic, between};
+use super::crossing::crossings;
+use super::piece::Piece;
+use crate::bernstein::{Barycentric, Sign, TriangleCubic, between};
 use crate::mesh::{TriangleFrame, Vector};
 
 /// The arc of a contour through a simple piece.
@@ -17,6 +19,7 @@ pub struct Arc<'a> {
     cubic: &'a TriangleCubic,
     frame: &'a TriangleFrame,
     corners: [Barycentric; 3],
+    signs: [Sign; 3],
     /// From barycentric coordinates of the cell to those of the piece.
     to_piece: Matrix3<f64>,
     apex: usize,
@@ -38,21 +41,22 @@ pub struct Node {
 }
 
 impl<'a> Arc<'a> {
-    /// The arc through the piece with the given corners, on which `cubic` (less
-    /// the level) crosses zero once on each ray from corner `apex`. Values up to
-    /// `rounding` count as zero.
+    /// The arc through a simple piece: `cubic` (less the level) crosses zero at most
+    /// once on each ray from its corner `apex`, and just once on those between the
+    /// arc's ends. Values up to `rounding` count as zero.
     ///
     /// Nothing if the piece is so thin that its coordinates cannot be computed.
     pub fn new(
         cubic: &'a TriangleCubic,
         frame: &'a TriangleFrame,
-        corners: [Barycentric; 3],
+        piece: &Piece,
         apex: usize,
         rounding: f64,
     ) -> Option<Self> {
+        let Piece { corners, signs, .. } = *piece;
         let from_piece = Matrix3::from_fn(|row, column| corners[column][row]);
         let to_piece = from_piece.try_inverse()?;
-        let arc = Self { cubic, frame, corners, to_piece, apex, rounding };
+        let arc = Self { cubic, frame, corners, signs, to_piece, apex, rounding };
         (!frame.is_degenerate()).then_some(arc)
     }
 
@@ -139,14 +143,18 @@ impl<'a> Arc<'a> {
         let (start, end) = (&self.corners[(self.apex + 1) % 3], &self.corners[(self.apex + 2) % 3]);
         let base = between(start, end, ray);
         let line = self.cubic.restrict(apex, &base);
-        let roots = line.roots();
-        // certified, so there is one; where rounding hides it, it is at the base
-        let t = roots.as_slice().first().map_or(1.0, |root| root.t);
+        // between the arc's ends the base is on the other side than the apex
+        let side = self.signs[self.apex];
+        let t = crossings(&line, side, !side).first().copied().unwrap_or(1.0);
         Node { ray, ..self.node_at(between(apex, &base, t)) }
     }
 }
 
-/// Whether a ray lies strictly between those of two nodes.
+/// Whether a ray lies between those of two nodes, and not so near to one of them
+/// that halving the arc there would make no headway: across a narrow tongue the
+/// nearest point is next to an end.
 fn is_between(ray: f64, a: &Node, b: &Node) -> bool {
-    ray > a.ray.min(b.ray) && ray < a.ray.max(b.ray)
+    let (low, high) = (a.ray.min(b.ray), a.ray.max(b.ray));
+    let margin = (high - low) / 16.0;
+    ray > low + margin && ray < high - margin
 }

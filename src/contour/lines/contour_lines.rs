@@ -40,6 +40,9 @@ pub struct Counts {
     /// Pieces whose contour could not be settled before the size limit. Their
     /// crossings are joined by straight lines.
     pub unresolved: usize,
+    /// Arcs that were given as many points as an arc may have, and are still not as
+    /// fine as asked.
+    pub coarse: usize,
     /// Cells left out because a value or a gradient is not finite.
     pub unusable: usize,
 }

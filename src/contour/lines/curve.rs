@@ -2,9 +2,10 @@
 
 use super::arc::{Arc, Node};
 use super::bezier::Bezier;
-use crate::mesh::Vector;
+use crate::mesh::{TriangleMesh, Vector};
 
-/// How fine the output is. A limit that is not wanted is infinite.
+/// How fine the output is. A limit that is not wanted is infinite; one that is no
+/// positive number is no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
     /// The thesis' threshold: the greatest distance between neighbouring points,
@@ -12,6 +13,21 @@ pub struct Resolution {
     pub spacing: f64,
     /// The greatest distance of a segment from the contour, in units of length.
     pub tolerance: f64,
+}
+
+/// Coordinates are known to this part of the largest.
+const COORDINATE: f64 = 4.0 * f64::EPSILON;
+
+impl Resolution {
+    /// The same limits, but none finer than coordinates of the mesh can be told
+    /// apart.
+    pub fn no_finer_than(self, mesh: &TriangleMesh) -> Self {
+        let coordinates = mesh.points().iter().flat_map(|point| point.iter());
+        let finite = coordinates.filter(|x| x.is_finite());
+        let least = COORDINATE * finite.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let limit = |value: f64| if value > 0.0 { value.max(least) } else { f64::INFINITY };
+        Self { spacing: limit(self.spacing), tolerance: limit(self.tolerance) }
+    }
 }
 
 /// The curve between two crossings: points on the contour strictly between them,
@@ -22,10 +38,27 @@ pub struct Drawing {
     pub points: Vec<Node>,
     /// Pieces from the first end to the last.
     pub curves: Vec<Bezier>,
+    /// Whether the arc was given all the points that it may have, and is not as fine
+    /// as asked.
+    pub coarse: bool,
 }
 
-/// Halvings of an arc after which its points are as close as they get.
-pub const MAX_DEPTH: u32 = 16;
+impl Drawing {
+    /// Whether the arc may not be halved any more; takes note of it.
+    pub fn is_full(&mut self, depth: u32) -> bool {
+        let full = depth == 0 || self.points.len() >= MAX_POINTS;
+        self.coarse |= full;
+        full
+    }
+}
+
+/// Halvings of an arc after which it is halved no more: its ends' rays are then as
+/// close as rounding lets them be.
+pub const MAX_DEPTH: u32 = 40;
+
+/// Points that an arc may have. More are only asked for where no number of points
+/// is enough.
+const MAX_POINTS: usize = 1 << 20;
 
 /// The middle of the arc: where the line through the middle of the chord, along
 /// the mean of the normals at its ends, meets the contour.
@@ -62,15 +95,15 @@ pub fn follow(
     (a, from): (&Node, f64),
     (b, to): (&Node, f64),
     resolution: &Resolution,
-    points: &mut Vec<Node>,
+    drawing: &mut Drawing,
 ) {
     let t = 0.5 * (from + to);
-    if to - from < 1.0 / f64::from(1 << MAX_DEPTH) || is_fine(arc, a, b, resolution) {
+    if is_fine(arc, a, b, resolution) || drawing.is_full(u32::from(from < t && t < to)) {
         return;
     }
     let across = arc.frame().normal().cross(&curve.derivative(t));
     let m = arc.land(&curve.point(t), &across, a, b);
-    follow(arc, curve, (a, from), (&m, t), resolution, points);
-    points.push(m);
-    follow(arc, curve, (&m, t), (b, to), resolution, points);
+    follow(arc, curve, (a, from), (&m, t), resolution, drawing);
+    drawing.points.push(m);
+    follow(arc, curve, (&m, t), (b, to), resolution, drawing);
 }

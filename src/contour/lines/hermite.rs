@@ -44,7 +44,7 @@ pub fn aodea(
     let curve = by_arc_length(arc, a, b);
     let short = (b.position - a.position).norm() <= resolution.spacing;
     let fine = short && is_near(arc, &|t| curve.point(t), resolution.tolerance);
-    if depth == 0 || fine {
+    if fine || drawing.is_full(depth) {
         return add(arc, curve, a, b, resolution, drawing);
     }
     let m = middle(arc, a, b);
@@ -62,7 +62,7 @@ fn add(
     resolution: &Resolution,
     drawing: &mut Drawing,
 ) {
-    follow(arc, &curve, (a, 0.0), (b, 1.0), resolution, &mut drawing.points);
+    follow(arc, &curve, (a, 0.0), (b, 1.0), resolution, drawing);
     drawing.curves.push(curve);
 }
 

@@ -8,7 +8,7 @@ use crate::mesh::Vector;
 
 /// Draws the arc by points that are as close as the resolution asks for.
 pub fn intercept(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution, drawing: &mut Drawing) {
-    add_middles(arc, a, b, resolution, MAX_DEPTH, &mut drawing.points);
+    add_middles(arc, a, b, resolution, MAX_DEPTH, drawing);
     let mut start: Vector = a.position;
     for node in drawing.points.iter().chain([b]) {
         drawing.curves.push(Bezier::line(start, node.position));
@@ -23,13 +23,13 @@ fn add_middles(
     b: &Node,
     resolution: &Resolution,
     depth: u32,
-    points: &mut Vec<Node>,
+    drawing: &mut Drawing,
 ) {
-    if depth == 0 || is_fine(arc, a, b, resolution) {
+    if is_fine(arc, a, b, resolution) || drawing.is_full(depth) {
         return;
     }
     let m = middle(arc, a, b);
-    add_middles(arc, a, &m, resolution, depth - 1, points);
-    points.push(m);
-    add_middles(arc, &m, b, resolution, depth - 1, points);
+    add_middles(arc, a, &m, resolution, depth - 1, drawing);
+    drawing.points.push(m);
+    add_middles(arc, &m, b, resolution, depth - 1, drawing);
 }

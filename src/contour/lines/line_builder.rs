@@ -84,6 +84,9 @@ impl LineBuilder<'_> {
     /// Closes the line and keeps it, unless rounding has left a single point.
     fn finish(self, level: usize, chain: &Chain, traces: &Traces) {
         let Self { lines, start, .. } = self;
+        if chain.closed {
+            close(lines, start);
+        }
         let end = lines.connectivity.len();
         if end - start < 2 {
             lines.connectivity.truncate(start);
@@ -103,6 +106,20 @@ impl LineBuilder<'_> {
         }
         let curves = first_curve..lines.curves.len();
         lines.lines.push(Polyline { level, closed: chain.closed, points: start..end, curves });
+    }
+}
+
+/// Ends a closed line at its first point, by number.
+fn close(lines: &mut ContourLines, start: usize) {
+    let [first, .., last] = lines.connectivity[start..] else { return };
+    let position = |point: u32| lines.points[point as usize].position;
+    if position(first) == position(last) {
+        if let Some(end) = lines.connectivity.last_mut() {
+            *end = first;
+        }
+    } else {
+        lines.connectivity.push(first);
+        lines.segment_cells.extend(lines.segment_cells.last().copied());
     }
 }
 

@@ -10,6 +10,7 @@ mod intercept;
 mod line_builder;
 mod method;
 mod piece;
+mod rounding;
 mod situation;
 mod start;
 mod stitch;
@@ -26,12 +27,9 @@ use rayon::prelude::*;
 use crate::contour::CellRanges;
 use crate::interpolant::TriangleCubics;
 use line_builder::add_level;
+use rounding::Rounding;
 use trace::{Tracing, trace};
 use traces::Traces;
-
-/// Coefficients this close to the level, as a multiple of the largest magnitude
-/// in the data, are on the level: the error of computing them is as large.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Cells traced at a time by one thread.
 const CHUNK: usize = 64;
@@ -56,16 +54,17 @@ pub fn contour_lines(
 ) -> ContourLines {
     let mut lines = ContourLines { levels: levels.to_vec(), ..Default::default() };
     lines.counts.unusable = ranges.unusable();
-    let magnitude = ranges.magnitude();
+    let resolution = resolution.no_finer_than(interpolant.mesh());
     for (place, &level) in levels.iter().enumerate() {
-        let rounding = ROUNDING * magnitude.max(level.abs());
-        let tracing = Tracing { level, rounding, method, resolution };
-        let cells = ranges.cells_at(level, rounding);
+        let cells = ranges.cells_at(level, |range| rounding::of_range(range, level));
+        let rounding = Rounding::new(interpolant.mesh(), ranges, level, &cells);
+        let tracing = Tracing { level, rounding: &rounding, method, resolution };
         lines.counts.active += cells.len();
         let mut traces = trace_cells(interpolant, &tracing, &cells);
         traces.add_flat_edges(interpolant.mesh());
         lines.counts.divided += traces.divided;
         lines.counts.unresolved += traces.unresolved;
+        lines.counts.coarse += traces.coarse;
         add_level(&mut lines, place, &traces);
     }
     lines

@@ -53,6 +53,18 @@ impl Piece {
         between(&self.corners[(edge + 1) % 3], &self.corners[(edge + 2) % 3], t)
     }
 
+    /// The ray from corner `apex` through the point `t` of an edge: where it meets
+    /// the base, the edge opposite.
+    pub fn ray(&self, apex: usize, edge: usize, t: f64) -> f64 {
+        if edge == apex {
+            t
+        } else if edge == (apex + 2) % 3 {
+            0.0
+        } else {
+            1.0
+        }
+    }
+
     /// The side on which an edge lies at `t`: its start's, changed by each
     /// crossing before `t`.
     fn side_at(&self, edge: usize, t: f64) -> Sign {

@@ -71,10 +71,11 @@ pub fn situation(piece: &Piece, corners: &[Vector; 3]) -> Situation {
     }
 }
 
-/// Whether both crossings lie on one edge at the apex, which is itself a ray.
-/// Only rounding brings that about.
+/// Whether the two crossings lie on one ray from the apex, as two on an edge at the
+/// apex do. Rounding, or a corner on the level, brings that about.
 fn both_on_one_ray(piece: &Piece, apex: usize) -> bool {
-    (0..3).any(|edge| edge != apex && piece.edges[edge].len() == 2)
+    let mut rays = piece.border().map(|(edge, crossing)| piece.ray(apex, edge, crossing.t));
+    rays.next() == rays.next()
 }
 
 /// The thesis' rules.

@@ -1,9 +1,11 @@
 //! One cell at one level: from its cubic to the arcs of its contour.
 
 use super::arc::Arc;
+use super::crossing::Crossing;
 use super::curve::Resolution;
 use super::method::{Method, draw};
-use super::piece::{Cell, EdgeCrossing, Piece};
+use super::piece::{Cell, Piece};
+use super::rounding::Rounding;
 use super::situation::{Division, Situation, situation};
 use super::start::{first_piece, flat_edges};
 use super::traces::Traces;
@@ -12,19 +14,19 @@ use crate::mesh::TriangleFrame;
 
 /// What all cells of a level share.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracing {
+pub struct Tracing<'a> {
     /// The level.
     pub level: f64,
-    /// Coefficients no further than this from the level lie on it, to rounding.
-    pub rounding: f64,
+    /// How near to the level counts as on it.
+    pub rounding: &'a Rounding,
     /// How arcs are drawn.
     pub method: Method,
     /// How finely.
     pub resolution: Resolution,
 }
 
-/// Divisions of a piece beyond which it is left unresolved. Each halves an edge,
-/// so the piece is then 2⁻³² of its cell: coefficients that far apart differ by
+/// Divisions of a piece beyond which it is left unresolved. Most halve an edge, so
+/// the piece is then some 2⁻³² of its cell: coefficients that far apart differ by
 /// rounding alone.
 const MAX_DEPTH: u32 = 64;
 
@@ -43,10 +45,10 @@ pub fn trace(
     frame: &TriangleFrame,
     traces: &mut Traces,
 ) {
-    let whole = TriangleCubic::new(cubic.coefficients.map(|c| {
-        let difference = c - tracing.level;
-        if difference.abs() <= tracing.rounding { 0.0 } else { difference }
-    }));
+    let Some((whole, rounding)) = above_level(tracing, points, cubic) else {
+        traces.unresolved += 1;
+        return;
+    };
     let flat = flat_edges(cell, points, &whole);
     traces.flat_edges.extend_from_slice(&flat);
     let divided = if flat.is_empty() { whole } else { whole.without_zero_sides() };
@@ -55,10 +57,45 @@ pub fn trace(
     }
     let mut cell = Cell { number: cell, cubic: &divided, frame, crossings: Vec::new() };
     let first = first_piece(&mut cell, &whole, points);
-    trace_pieces(tracing, &mut cell, first, traces);
+    trace_pieces(tracing, rounding, &mut cell, first, traces);
 }
 
-fn trace_pieces(tracing: &Tracing, cell: &mut Cell, first: Piece, traces: &mut Traces) {
+/// The cubic less the level, and how near to zero its values count as zero.
+///
+/// Both are divided by a power of two, so that the largest coefficient is near one
+/// and no square of a slope leaves the range of floating-point numbers. That
+/// changes no bit of where the cubic is zero. Nothing if the difference is no
+/// finite number.
+fn above_level(
+    tracing: &Tracing,
+    points: [u32; 3],
+    cubic: &TriangleCubic,
+) -> Option<(TriangleCubic, f64)> {
+    let value = |corner: usize| cubic.edge((corner + 2) % 3).coefficients[0];
+    let rounding = [0, 1, 2].map(|n| tracing.rounding.at(points[n], value(n)));
+    let whole = TriangleCubic::from_coefficients(|exponents| {
+        let difference = cubic.coefficient(exponents) - tracing.level;
+        // a coefficient of an edge belongs to both its ends
+        let near = (0..3).filter(|&n| exponents[n] > 0).map(|n| rounding[n]).fold(0.0, f64::max);
+        if difference.abs() <= near { 0.0 } else { difference }
+    });
+    let (low, high) = whole.bounds();
+    let size = high.max(-low);
+    if !size.is_finite() {
+        return None;
+    }
+    let scale = if size > 0.0 { size.log2().floor().exp2() } else { 1.0 };
+    let rounding = rounding.into_iter().fold(0.0, f64::max) / scale;
+    Some((TriangleCubic::new(whole.coefficients.map(|c| c / scale)), rounding))
+}
+
+fn trace_pieces(
+    tracing: &Tracing,
+    rounding: f64,
+    cell: &mut Cell,
+    first: Piece,
+    traces: &mut Traces,
+) {
     let mut waiting = vec![first];
     let mut seen = 0;
     while let Some(piece) = waiting.pop() {
@@ -66,8 +103,8 @@ fn trace_pieces(tracing: &Tracing, cell: &mut Cell, first: Piece, traces: &mut T
         let corners = piece.corners.map(|corner| cell.frame.position(&corner));
         match situation(&piece, &corners) {
             Situation::Empty => join_along_border(cell, &piece, traces),
-            Situation::Simple { apex } => draw_arc(tracing, cell, &piece, apex, traces),
-            Situation::Undecided(_) if is_at_limit(tracing, &piece, seen) => {
+            Situation::Simple { apex } => draw_arc(tracing, rounding, cell, &piece, apex, traces),
+            Situation::Undecided(_) if is_at_limit(rounding, &piece, seen) => {
                 traces.unresolved += 1;
                 join_nearest(cell, &piece, traces);
             }
@@ -81,13 +118,20 @@ fn trace_pieces(tracing: &Tracing, cell: &mut Cell, first: Piece, traces: &mut T
 }
 
 /// Whether dividing a piece further would only resolve rounding.
-fn is_at_limit(tracing: &Tracing, piece: &Piece, seen: usize) -> bool {
+fn is_at_limit(rounding: f64, piece: &Piece, seen: usize) -> bool {
     let (low, high) = piece.cubic.bounds();
-    piece.depth >= MAX_DEPTH || seen >= MAX_PIECES || high.max(-low) <= tracing.rounding
+    piece.depth >= MAX_DEPTH || seen >= MAX_PIECES || high.max(-low) <= rounding
 }
 
 /// Draws the one arc of a simple piece.
-fn draw_arc(tracing: &Tracing, cell: &Cell, piece: &Piece, apex: usize, traces: &mut Traces) {
+fn draw_arc(
+    tracing: &Tracing,
+    rounding: f64,
+    cell: &Cell,
+    piece: &Piece,
+    apex: usize,
+    traces: &mut Traces,
+) {
     let mut border = piece.border();
     let (Some(first), Some(second)) = (border.next(), border.next()) else { return };
     // the higher side is on the left if the border leaves it where the arc begins
@@ -95,29 +139,17 @@ fn draw_arc(tracing: &Tracing, cell: &Cell, piece: &Piece, apex: usize, traces: 
         Sign::Above => (first, second),
         Sign::Below => (second, first),
     };
-    let crossing = |on_border: (usize, EdgeCrossing)| cell.crossings[on_border.1.crossing as usize];
+    let [start, end] = [start, end].map(|(edge, crossing)| {
+        (cell.crossings[crossing.crossing as usize], piece.ray(apex, edge, crossing.t))
+    });
     let mut drawing = std::mem::take(&mut traces.drawing);
-    if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece.corners, apex, tracing.rounding) {
-        let node = |on_border: (usize, EdgeCrossing)| {
-            let crossing = crossing(on_border);
-            arc.node(crossing.at, crossing.position, ray(apex, on_border))
-        };
+    if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece, apex, rounding) {
+        let node = |(crossing, ray): (Crossing, f64)| arc.node(crossing.at, crossing.position, ray);
         let ends = [node(start), node(end)];
         draw(&arc, [&ends[0], &ends[1]], tracing.method, &tracing.resolution, &mut drawing);
     }
-    traces.add(cell, crossing(start), crossing(end), &mut drawing);
+    traces.add(cell, start.0, end.0, &mut drawing);
     traces.drawing = drawing;
-}
-
-/// Where the ray from the apex to a crossing of the border meets the base.
-fn ray(apex: usize, (edge, crossing): (usize, EdgeCrossing)) -> f64 {
-    if edge == apex {
-        crossing.t
-    } else if edge == (apex + 2) % 3 {
-        0.0
-    } else {
-        1.0
-    }
 }
 
 /// Joins the crossings of a piece in which all coefficients have one sign: the

@@ -50,6 +50,8 @@ pub struct Traces {
     pub divided: usize,
     /// Pieces whose contour could not be settled.
     pub unresolved: usize,
+    /// Arcs that are not as fine as asked.
+    pub coarse: usize,
     /// The arc that is being drawn; kept so that its memory is used again.
     pub drawing: Drawing,
 }
@@ -63,9 +65,11 @@ impl Traces {
         }
     }
 
-    /// Adds a strand and empties its drawing; passes over one without length.
+    /// Adds a strand and empties its drawing; passes over one that is a single point.
+    ///
+    /// One between different owners is kept even if it has no length: it joins them.
     pub fn add(&mut self, cell: &Cell, start: Crossing, end: Crossing, drawing: &mut Drawing) {
-        if drawing.points.is_empty() && start.position == end.position {
+        if drawing.points.is_empty() && start.owner == end.owner {
             drawing.curves.clear();
             return;
         }
@@ -82,6 +86,7 @@ impl Traces {
         let inner = |node: Node| InnerPoint { at: node.at, position: node.position };
         self.points.extend(drawing.points.drain(..).map(inner));
         self.curves.append(&mut drawing.curves);
+        self.coarse += usize::from(std::mem::take(&mut drawing.coarse));
     }
 
     /// These traces, followed by others.
@@ -97,6 +102,7 @@ impl Traces {
         self.flat_edges.extend(other.flat_edges);
         self.divided += other.divided;
         self.unresolved += other.unresolved;
+        self.coarse += other.coarse;
         self
     }
 

@@ -1,0 +1,58 @@
+//! How near to the level counts as on it.
+
+use std::collections::HashMap;
+
+use crate::contour::CellRanges;
+use crate::mesh::TriangleMesh;
+
+/// How near to a level the coefficients around each mesh point count as on it.
+///
+/// A value is known to a few units in its last place, and a value that ought to be
+/// zero, such as sin π, to a few units of its neighbours'. The neighbours are taken
+/// around each point, not over the whole mesh: one huge value, such as a mark for
+/// missing data, must not round off what is elsewhere. A point has one measure, so
+/// all its cells agree on what lies on the level.
+#[derive(Debug)]
+pub struct Rounding {
+    level: f64,
+    /// For each point of the active cells, the least spread of the interpolant on
+    /// one of them.
+    spreads: HashMap<u32, f64>,
+}
+
+/// Rounding of a value itself.
+const OF_VALUE: f64 = 4.0 * f64::EPSILON;
+
+/// Rounding of a value that came of larger ones: those on a cell may be some tens
+/// of times smaller than those that it came of.
+const OF_SPREAD: f64 = 64.0 * f64::EPSILON;
+
+impl Rounding {
+    /// The rounding at the points of the cells that are active at a level.
+    pub fn new(mesh: &TriangleMesh, ranges: &CellRanges, level: f64, cells: &[u32]) -> Self {
+        let mut spreads = HashMap::with_capacity(2 * cells.len());
+        for &cell in cells {
+            let [low, high] = ranges.range(cell as usize);
+            for point in mesh.triangles()[cell as usize] {
+                let least = spreads.entry(point).or_insert(f64::INFINITY);
+                *least = least.min(high - low);
+            }
+        }
+        Self { level, spreads }
+    }
+
+    /// How near to the level coefficients at a point count as on it; `value` is the
+    /// value there.
+    pub fn at(&self, point: u32, value: f64) -> f64 {
+        let spread = self.spreads.get(&point).copied().unwrap_or(0.0);
+        let spread = if spread.is_finite() { spread } else { 0.0 };
+        (OF_VALUE * value.abs().max(self.level.abs())).max(OF_SPREAD * spread)
+    }
+}
+
+/// How far outside the range of a cell a level may be, to rounding, and still be
+/// met in it.
+pub fn of_range([low, high]: [f64; 2], level: f64) -> f64 {
+    let largest = low.abs().max(high.abs()).max(level.abs());
+    OF_VALUE * largest + OF_SPREAD * (high - low)
+}

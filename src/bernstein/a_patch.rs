@@ -11,6 +11,7 @@
 //! Source: C. Bajaj, J. Chen, G. Xu, *Modeling with cubic A-patches*, ACM Trans.
 //! Graph. 14 (1995) 103-133, three-sided patches; here in two dimensions.
 
+use super::sign::Sign;
 use super::triangle::TriangleCubic;
 
 /// What the signs of the coefficients say about the zero set in a triangle.
@@ -56,16 +57,18 @@ impl Signs {
 impl TriangleCubic {
     /// The A-patch certificate for the zero set of this polynomial.
     ///
-    /// A zero coefficient counts as either sign. Of several possible apexes the
-    /// one with the value farthest from zero is chosen, for its rays meet the
-    /// zero set at the steepest angles.
-    pub fn certificate(&self) -> Certificate {
+    /// `signs` are the sides on which the corners count. A zero coefficient counts
+    /// as either sign, but at the apex as its corner does: there the rays begin, and
+    /// one that begins on the other side has a crossing more. Of several possible
+    /// apexes the one with the value farthest from zero is chosen, for its rays meet
+    /// the zero set at the steepest angles.
+    pub fn certificate(&self, signs: [Sign; 3]) -> Certificate {
         let all = Signs::of(&self.coefficients, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
         if !(all.below && all.above) {
             return Certificate::Empty;
         }
         let apex = (0..3)
-            .filter(|&apex| changes_sign_once(&self.coefficients, apex))
+            .filter(|&apex| changes_sign_once(&self.coefficients, apex, signs[apex]))
             .max_by(|&a, &b| self.distance_from_zero(a).total_cmp(&self.distance_from_zero(b)));
         apex.map_or(Certificate::None, |apex| Certificate::Graph { apex })
     }
@@ -75,9 +78,11 @@ impl TriangleCubic {
     }
 }
 
-/// Whether the layers seen from `apex` change sign at most once.
-fn changes_sign_once(coefficients: &[f64; 10], apex: usize) -> bool {
-    let layers = LAYERS[apex].map(|positions| Signs::of(coefficients, positions));
+/// Whether the layers seen from `apex`, which counts as on the given side, change
+/// sign at most once.
+fn changes_sign_once(coefficients: &[f64; 10], apex: usize, side: Sign) -> bool {
+    let mut layers = LAYERS[apex].map(|positions| Signs::of(coefficients, positions));
+    layers[0] = Signs { below: side == Sign::Below, above: side == Sign::Above };
     // layers of one sign, then at most one mixed layer, then the other sign
     let once = |first: fn(&Signs) -> bool, second: fn(&Signs) -> bool| {
         let leading = layers.iter().take_while(|layer| !second(layer)).count();
@@ -90,14 +95,15 @@ fn changes_sign_once(coefficients: &[f64; 10], apex: usize) -> bool {
 mod tests {
     use super::super::barycentric::Barycentric;
     use super::*;
+    use Sign::{Above, Below};
     use proptest::prelude::*;
 
     const VERTICES: [Barycentric; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     #[test]
     fn one_sign_is_empty() {
-        assert_eq!(TriangleCubic::new([1.0; 10]).certificate(), Certificate::Empty);
-        assert_eq!(TriangleCubic::new([0.0; 10]).certificate(), Certificate::Empty);
+        assert_eq!(TriangleCubic::new([1.0; 10]).certificate([Above; 3]), Certificate::Empty);
+        assert_eq!(TriangleCubic::new([0.0; 10]).certificate([Above; 3]), Certificate::Empty);
     }
 
     #[test]
@@ -105,21 +111,32 @@ mod tests {
         // all of the border above zero, the centre far below
         let mut island = [1.0; 10];
         island[TriangleCubic::CENTRE] = -10.0;
-        assert_eq!(TriangleCubic::new(island).certificate(), Certificate::None);
+        assert_eq!(TriangleCubic::new(island).certificate([Above; 3]), Certificate::None);
     }
 
     #[test]
     fn a_mixed_base_is_a_graph_over_part_of_it() {
         let mut bay = [1.0; 10];
         bay[7] = -3.0;
-        assert_eq!(TriangleCubic::new(bay).certificate(), Certificate::Graph { apex: 0 });
+        assert_eq!(TriangleCubic::new(bay).certificate([Above; 3]), Certificate::Graph { apex: 0 });
     }
 
     #[test]
     fn a_mixed_layer_needs_the_far_layers_settled() {
         // from vertex 0: above, mixed, mixed, below
         let layers = [1.0, 1.0, -1.0, 1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0];
-        assert!(!changes_sign_once(&layers, 0));
+        assert!(!changes_sign_once(&layers, 0, Above));
+    }
+
+    #[test]
+    fn an_apex_on_the_level_counts_as_its_corner() {
+        // from vertex 0: on the level, below, below, mixed
+        let layers = [0.0, -2.0, 0.0, -2.0, 0.0, 0.0, -1.0, 1.0, -1.0, 1.0];
+        assert!(changes_sign_once(&layers, 0, Below));
+        assert!(!changes_sign_once(&layers, 0, Above));
+        // a line through vertex 0 is still certified, from another vertex
+        let line = TriangleCubic::linear([0.0, 1.0, -1.0]);
+        assert_eq!(line.certificate([Above, Above, Below]), Certificate::Graph { apex: 2 });
     }
 
     proptest! {
@@ -129,7 +146,8 @@ mod tests {
         /// ends wherever the polynomial is nearly linear.
         #[test]
         fn linear_functions_are_certified(values in prop::array::uniform3(-1.0..1.0f64)) {
-            prop_assert!(TriangleCubic::linear(values).certificate() != Certificate::None);
+            let certificate = TriangleCubic::linear(values).certificate(values.map(Sign::of));
+            prop_assert!(certificate != Certificate::None);
         }
 
         /// What is certified holds: rays from the apex cross zero at most once.
@@ -145,7 +163,8 @@ mod tests {
                 *c += n;
             }
             let cubic = TriangleCubic::new(coefficients);
-            let Certificate::Graph { apex } = cubic.certificate() else { return Ok(()) };
+            let signs = [0, 6, 9].map(|corner| Sign::of(coefficients[corner]));
+            let Certificate::Graph { apex } = cubic.certificate(signs) else { return Ok(()) };
             for step in 0..=50 {
                 let s = f64::from(step) / 50.0;
                 let mut base = [0.0; 3];

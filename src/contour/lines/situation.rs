@@ -61,7 +61,7 @@ const NEAREST: f64 = 0.02;
 /// piece, in space.
 pub fn situation(piece: &Piece, corners: &[Vector; 3]) -> Situation {
     let count = piece.crossing_count();
-    match piece.cubic.certificate() {
+    match piece.cubic.certificate(piece.signs) {
         Certificate::Empty => Situation::Empty,
         Certificate::Graph { .. } if count == 0 => Situation::Empty,
         Certificate::Graph { apex } if count == 2 && !both_on_one_ray(piece, apex) => {

@@ -138,7 +138,7 @@ impl<'a> Arc<'a> {
     }
 
     /// The point of the arc on the ray to the point `ray` of the base.
-    fn on_ray(&self, ray: f64) -> Node {
+    pub fn on_ray(&self, ray: f64) -> Node {
         let apex = &self.corners[self.apex];
         let (start, end) = (&self.corners[(self.apex + 1) % 3], &self.corners[(self.apex + 2) % 3]);
         let base = between(start, end, ray);

@@ -8,9 +8,10 @@ use crate::mesh::Vector;
 
 /// Draws the arc by points that are as close as the resolution asks for.
 pub fn intercept(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution, drawing: &mut Drawing) {
+    let first = drawing.points.len();
     add_middles(arc, a, b, resolution, MAX_DEPTH, drawing);
     let mut start: Vector = a.position;
-    for node in drawing.points.iter().chain([b]) {
+    for node in drawing.points[first..].iter().chain([b]) {
         drawing.curves.push(Bezier::line(start, node.position));
         start = node.position;
     }

@@ -1,7 +1,9 @@
 //! One cell at one level: from its cubic to the arcs of its contour.
 
-use super::arc::Arc;
-use super::crossing::Crossing;
+use arrayvec::ArrayVec;
+
+use super::arc::{Arc, Node};
+use super::crossing::{Crossing, Owner};
 use super::curve::Resolution;
 use super::method::{Method, draw};
 use super::piece::{Cell, Piece};
@@ -10,6 +12,7 @@ use super::situation::{Division, Situation, situation};
 use super::start::{first_piece, flat_edges};
 use super::traces::Traces;
 use crate::bernstein::{Sign, TriangleCubic};
+use crate::contour::extreme::{Extreme, recursive_extreme};
 use crate::mesh::TriangleFrame;
 
 /// What all cells of a level share.
@@ -145,11 +148,56 @@ fn draw_arc(
     let mut drawing = std::mem::take(&mut traces.drawing);
     if let Some(arc) = Arc::new(cell.cubic, cell.frame, piece, apex, rounding) {
         let node = |(crossing, ray): (Crossing, f64)| arc.node(crossing.at, crossing.position, ray);
-        let ends = [node(start), node(end)];
-        draw(&arc, [&ends[0], &ends[1]], tracing.method, &tracing.resolution, &mut drawing);
+        let stations =
+            [Some(node(start)), waypoint(&arc, piece, apex, start, end), Some(node(end))];
+        let stations: ArrayVec<Node, 3> = stations.into_iter().flatten().collect();
+        for (place, pair) in stations.windows(2).enumerate() {
+            if place > 0 {
+                drawing.points.push(pair[0]);
+            }
+            draw(&arc, [&pair[0], &pair[1]], tracing.method, &tracing.resolution, &mut drawing);
+        }
     }
     traces.add(cell, start.0, end.0, &mut drawing);
     traces.drawing = drawing;
+}
+
+/// A point that the arc must pass, where its ends alone would not show it.
+fn waypoint(
+    arc: &Arc,
+    piece: &Piece,
+    apex: usize,
+    (start, from): (Crossing, f64),
+    (end, to): (Crossing, f64),
+) -> Option<Node> {
+    if start.owner == end.owner {
+        // a loop from the apex back to it, around where its side reaches farthest
+        let which = match piece.signs[apex] {
+            Sign::Above => Extreme::Maximum,
+            Sign::Below => Extreme::Minimum,
+        };
+        let top = recursive_extreme(&piece.cubic, which);
+        let (left, right) = (top.at[(apex + 1) % 3], top.at[(apex + 2) % 3]);
+        let is_there = top.value != 0.0 && Sign::of(top.value) == piece.signs[apex];
+        (is_there && left + right > 0.0).then(|| arc.on_ray(right / (left + right)))
+    } else if may_be_half_an_island(start.owner, end.owner) {
+        // if both halves were straight, they would be the same line
+        Some(arc.on_ray(0.5 * (from + to)))
+    } else {
+        None
+    }
+}
+
+/// Whether an arc and another may have both ends in common: two points inside the
+/// cell, or on one edge.
+fn may_be_half_an_island(start: Owner, end: Owner) -> bool {
+    match (start, end) {
+        (Owner::Cell { .. }, Owner::Cell { .. }) => true,
+        (Owner::Edge { low, high, .. }, Owner::Edge { low: l, high: h, .. }) => {
+            (low, high) == (l, h)
+        }
+        _ => false,
+    }
 }
 
 /// Joins the crossings of a piece in which all coefficients have one sign: the

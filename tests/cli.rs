@@ -263,7 +263,7 @@ fn warnings_where_users_of_vtk_expect_output() {
     let mut values: Vec<f64> = (0..9).map(|n| f64::from(n % 3)).collect();
     bench.write_grid(vec![u()], vec![]);
     let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5,-1,1.5"]);
-    assert!(said.contains("no line at -1, 5: outside the range 0"), "{said}");
+    assert!(said.contains("no line at -1.0, 5.0: outside the range 0.0"), "{said}");
     assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 1);
     assert_eq!(bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5", "-q"]), "");
     assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 0);
@@ -276,7 +276,7 @@ fn warnings_where_users_of_vtk_expect_output() {
     assert!(said.contains("the PDE does not determine the cubic in 8 of 8 triangles"), "{said}");
     bench.write_grid(vec![DataArray::new("u", 1, vec![2.0; 9])], vec![]);
     let said = bench.succeed(&["in.vtu", "-o", "out.vtp"]);
-    assert!(said.contains("'u' is 2 everywhere"), "{said}");
+    assert!(said.contains("'u' is 2.0 everywhere"), "{said}");
 }
 
 #[test]
@@ -354,6 +354,33 @@ fn wrong_usage_exits_with_2() {
     for arguments in cases {
         bench.fail(2, arguments);
     }
+}
+
+#[test]
+fn nothing_is_written_over_what_is_read() {
+    let bench = Bench::new();
+    bench.write_grid(vec![u()], vec![]);
+    let cases: [&[&str]; 4] = [
+        &["in.vtu", "-o", "./in.vtu"],
+        &["in.vtu", "-o", "out.vtp", "--stats", "in.vtu"],
+        &["in.vtu", "-o", "out.vtp", "--stats", "out.vtp"],
+        &["in.vtu", "-o", "out.vtp", "--stats", "nowhere/stats.json"],
+    ];
+    let before = std::fs::read(bench.path("in.vtu")).unwrap();
+    for arguments in cases {
+        bench.fail(1, arguments);
+    }
+    assert_eq!(std::fs::read(bench.path("in.vtu")).unwrap(), before);
+    bench.fail(2, &["in.vtu", "-o", "out.vtp", "--param", "k=1"]);
+    bench.succeed(&["in.vtu", "-o", "OUT.VTP"]);
+}
+
+#[test]
+fn long_lists_of_levels_stay_short() {
+    let bench = Bench::new();
+    bench.write_grid(vec![u()], vec![]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-n", "100", "--range", "5,1e300"]);
+    assert!(said.contains("and 95 more levels") && said.len() < 300, "{said}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod support;
 use support::brute_force::{self, Components};
 use support::meshes::{Random, grid, random_square};
 use support::problem4;
+use vtu2contour::bernstein::TriangleCubic;
 use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::lines::{ContourLines, Method, Resolution, contour_lines};
 use vtu2contour::field::Field;
@@ -292,6 +293,126 @@ fn a_triangle_without_area_does_not_break_the_line() {
     let lines = contour(&pci, &[0.7], Method::Aodea);
     assert_eq!(lines.lines.len(), 1);
     check_ends(&lines, &mesh);
+}
+
+#[test]
+fn one_huge_value_harms_its_own_cells_only() {
+    let mesh = grid(8);
+    let (mut values, gradients) = nodal(&mesh, |p| p.x, |_| Vector::x());
+    let corner = mesh.points().iter().position(|p| p.x == 1.0 && p.y == 1.0).unwrap();
+    values[corner] = 1e20;
+    let pci = Pci::new(&mesh, Field { values: &values, gradients: &gradients });
+    let lines = contour(&pci, &[0.3], Method::Aodea);
+    assert!((lengths(&lines)[0] - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_side_that_is_zero_twice() {
+    // u = y² (4 x - 1), with its PDE: zero on y = 0, twice, and on x = 1/4
+    let mesh = grid(1);
+    let value = |p: &Vector| p.y * p.y * (4.0 * p.x - 1.0);
+    let gradient = |p: &Vector| Vector::new(4.0 * p.y * p.y, 2.0 * p.y * (4.0 * p.x - 1.0), 0.0);
+    let (values, gradients) = nodal(&mesh, value, gradient);
+    let pde = Pde::parse("uxx + uyy = 2*(4*x - 1)", &[], &[]).unwrap();
+    let equation = Equation { pde: &pde, arrays: &[], predictor: Predictor::Quadratic };
+    let pci = Pci::with_pde(&mesh, Field { values: &values, gradients: &gradients }, &equation);
+    for method in METHODS {
+        let found = lengths(&contour(&pci, &[0.0], method));
+        assert_eq!(found.len(), 2);
+        assert!(found.iter().all(|length| (length - 1.0).abs() < 1e-12), "{found:?}");
+    }
+}
+
+#[test]
+fn tiny_and_huge_numbers_are_as_any_others() {
+    // a circle, its values and its size scaled: as many points, and as soon
+    let count = |values: f64, size: f64, offset: f64| {
+        let plain = grid(8);
+        let moved = |p: &Vector| Vector::new(p.x * size + offset, p.y * size + offset, 0.0);
+        let points = plain.points().iter().map(moved).collect();
+        let mesh = TriangleMesh::new(points, plain.triangles().to_vec()).unwrap();
+        let from_middle = |p: &Vector| p - Vector::new(0.47, 0.53, 0.0);
+        let (u, g) = nodal(
+            &plain,
+            |p| values * from_middle(p).norm_squared(),
+            |p| from_middle(p) * (2.0 * values / size),
+        );
+        let pci = Pci::new(&mesh, Field { values: &u, gradients: &g });
+        let resolution = Resolution { spacing: f64::INFINITY, tolerance: 1e-4 * size };
+        let ranges = CellRanges::new(&pci);
+        let lines = contour_lines(&pci, &ranges, &[0.1 * values], Method::Aodea, resolution);
+        assert_eq!(components(&lines), Components { all: 1, closed: 1 });
+        lines.points.len()
+    };
+    let usual = count(1.0, 1.0, 0.0);
+    for (values, size, offset) in [
+        (1e-170, 1.0, 0.0),
+        (1e-300, 1.0, 0.0),
+        (1e150, 1.0, 0.0),
+        (1.0, 1e-9, 0.0),
+        (1.0, 1e9, 0.0),
+    ] {
+        assert_eq!(count(values, size, offset), usual, "{values:e} {size:e}");
+    }
+    // far from the origin coordinates have few digits left, and points are fewer
+    assert!(count(1.0, 1.0, 1e11) <= 2 * usual);
+    // limits that are no numbers are no limits
+    let mesh = grid(2);
+    let (u, g) = nodal(&mesh, |p| p.x, |_| Vector::x());
+    let pci = Pci::new(&mesh, Field { values: &u, gradients: &g });
+    let resolution = Resolution { spacing: f64::NAN, tolerance: f64::NAN };
+    let lines = contour_lines(&pci, &CellRanges::new(&pci), &[0.3], Method::Sode, resolution);
+    assert_eq!(lines.points.len(), 5);
+}
+
+#[test]
+fn lines_along_edges_have_the_higher_side_on_the_left() {
+    for sign in [1.0, -1.0] {
+        let mesh = grid(2);
+        let (values, gradients) = nodal(&mesh, |p| sign * (p.x - 0.5), |_| Vector::x() * sign);
+        let pci = Pci::new(&mesh, Field { values: &values, gradients: &gradients });
+        let lines = contour(&pci, &[0.0], Method::Aodea);
+        let points: Vec<_> = lines.line_points(&lines.lines[0]).map(|p| p.position).collect();
+        assert!((points[2] - points[0]).y * sign < 0.0);
+    }
+}
+
+#[test]
+fn a_loop_that_begins_and_ends_in_a_node_is_drawn() {
+    // a petal at the corner of one triangle
+    struct Petal(TriangleMesh);
+    impl TriangleCubics for Petal {
+        fn mesh(&self) -> &TriangleMesh {
+            &self.0
+        }
+        fn cubic(&self, _: usize) -> TriangleCubic {
+            // 2 λ₀ λ₁ λ₂ - λ₀³ - λ₁³
+            TriangleCubic::new([-1.0, 0.0, 0.0, 0.0, 1.0 / 3.0, 0.0, -1.0, 0.0, 0.0, 0.0])
+        }
+    }
+    let points = vec![Vector::zeros(), Vector::x(), Vector::y()];
+    let petal = Petal(TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap());
+    for method in METHODS {
+        let lines = contour(&petal, &[0.0], method);
+        assert_eq!(components(&lines), Components { all: 1, closed: 1 });
+        assert!((lengths(&lines)[0] - petal_length()).abs() < 0.01);
+        let line = &lines.lines[0];
+        assert_eq!(lines.connectivity[line.points.start], lines.connectivity[line.points.end - 1]);
+    }
+}
+
+/// The length of 2 λ₀ λ₁ λ₂ = λ₀³ + λ₁³, by its points on the rays λ₁ = s λ₀.
+fn petal_length() -> f64 {
+    let count = 10_000;
+    let points: Vec<Vector> = (0..=count)
+        .map(|n| {
+            let s = (f64::from(n) / f64::from(count) * std::f64::consts::FRAC_PI_2).tan();
+            let first = 2.0 * s / (1.0 + s * s * s + 2.0 * s * (1.0 + s));
+            Vector::new(s * first, 1.0 - first - s * first, 0.0)
+        })
+        .filter(|point| point.x.is_finite())
+        .collect();
+    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
 /// A cubic with random coefficients, its gradient, and a PDE that it solves.

@@ -173,7 +173,7 @@ pub struct InterpolantArguments {
     pub pde: Option<String>,
 
     /// A parameter of the PDE; may be repeated
-    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter, requires = "pde")]
     pub parameters: Vec<(String, f64)>,
 
     /// Which interpolant to contour
@@ -245,7 +245,7 @@ pub struct OutputArguments {
 #[command(next_help_heading = "Running")]
 pub struct RunArguments {
     /// Threads [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
 
     /// No warnings and no progress

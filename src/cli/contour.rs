@@ -1,7 +1,7 @@
 //! `vtu2contour contour`: contour lines of a grid.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use vtu2contour::filter::{Contoured, FilterError, Stage, contour, picture};
@@ -22,6 +22,7 @@ enum Format {
 /// Runs the job.
 pub fn run(arguments: &ContourArguments) -> Result<()> {
     let format = format_of(arguments.output())?;
+    check_names(arguments)?;
     let running = &arguments.running;
     if let Some(threads) = running.threads {
         rayon::ThreadPoolBuilder::new()
@@ -37,6 +38,8 @@ pub fn run(arguments: &ContourArguments) -> Result<()> {
 
 fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Result<()> {
     let mut clock = Clock::start();
+    // a folder that is missing is better told before the work than after
+    let stats_file = arguments.output_options.stats.as_ref().map(AtomicFile::create).transpose()?;
     messages.stage("reading");
     let loaded = VtuFile::open(arguments.input())?.read(&Selection::All)?;
     for warning in &loaded.warnings {
@@ -58,14 +61,40 @@ fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Res
     tell(&contoured, messages);
     let stats = Stats::new(&contoured);
     write(arguments, format, contoured)?;
-    if let Some(path) = &arguments.output_options.stats {
-        write_stats(path, &stats.with_times(clock.stop()))?;
+    if let Some(file) = stats_file {
+        write_stats(file, &stats.with_times(clock.stop()))?;
     }
     Ok(())
 }
 
+/// Refuses to write over what is read, or two files under one name.
+fn check_names(arguments: &ContourArguments) -> Result<()> {
+    let written = [Some(arguments.output()), arguments.output_options.stats.as_deref()];
+    let mut taken = vec![real_name(arguments.input())];
+    for path in written.into_iter().flatten() {
+        let name = real_name(path);
+        if taken.contains(&name) {
+            bail!("'{}' would be written over: give another name", path.display());
+        }
+        taken.push(name);
+    }
+    Ok(())
+}
+
+/// The name of a file without links and dots, as far as it exists.
+fn real_name(path: &Path) -> PathBuf {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let whole = path.canonicalize().ok();
+    let in_folder = || Some(folder.canonicalize().ok()?.join(path.file_name()?));
+    whole.or_else(in_folder).unwrap_or_else(|| path.to_owned())
+}
+
 fn format_of(output: &Path) -> Result<Format> {
-    match output.extension().and_then(|extension| extension.to_str()) {
+    let extension = output.extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_lowercase).as_deref() {
         Some("vtp") => Ok(Format::Vtp),
         Some("vtu") => Ok(Format::Vtu),
         Some("svg") => Ok(Format::Svg),
@@ -103,8 +132,7 @@ fn write(arguments: &ContourArguments, format: Format, contoured: Contoured) -> 
     Ok(())
 }
 
-fn write_stats(path: &Path, stats: &Stats) -> Result<()> {
-    let mut file = AtomicFile::create(path)?;
+fn write_stats(mut file: AtomicFile, stats: &Stats) -> Result<()> {
     serde_json::to_writer_pretty(&mut file, stats)?;
     writeln!(file)?;
     Ok(file.commit()?)
@@ -119,7 +147,7 @@ fn tell(contoured: &Contoured, messages: &Messages) {
     let gradient = report.gradient.as_deref().map_or("recovered".to_owned(), |n| format!("'{n}'"));
     let closed = lines.lines.iter().filter(|line| line.closed).count();
     messages.detail(&format!(
-        "array '{}', gradient {gradient}, range {} to {}\n\
+        "array '{}', gradient {gradient}, range {:?} to {:?}\n\
          {} triangles; {} active at {} levels, {} subdivided, {} unresolved\n\
          tolerance {:e}, spacing {:e}\n\
          {} lines ({closed} closed), {} points",

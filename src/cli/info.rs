@@ -103,7 +103,7 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
 }
 
 fn span(low: f64, high: f64) -> String {
-    if low == high { format!("{low}") } else { format!("{low} to {high}") }
+    if low == high { format!("{low:?}") } else { format!("{low:?} to {high:?}") }
 }
 
 fn write_contour(
@@ -129,10 +129,10 @@ fn plan(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Vec<String>
         format!("array     {}", solution.chosen.label()),
         format!("gradient  {}", solution.gradients.array.as_deref().unwrap_or("recovered")),
         format!("cells     {} triangles", solution.triangles.mesh.triangles().len()),
-        format!("range     {low} to {high}"),
+        format!("range     {low:?} to {high:?}"),
     ];
     if let (Some(first), Some(last)) = (levels.first(), levels.last()) {
-        lines.push(format!("levels    {} by default, from {first} to {last}", levels.len()));
+        lines.push(format!("levels    {} by default, from {first:?} to {last:?}", levels.len()));
     }
     if solution.triangles.skipped.total() > 0 {
         lines.push(format!("left out  {}", solution.triangles.skipped));

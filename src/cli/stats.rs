@@ -29,6 +29,8 @@ struct Cells {
     subdivided: usize,
     /// Pieces whose contour could not be settled.
     unresolved: usize,
+    /// Arcs not as fine as asked.
+    coarse: usize,
     /// Cells of types that are not contoured.
     skipped: usize,
     /// Triangles with values that are not finite.
@@ -123,6 +125,7 @@ impl Stats {
                 active: report.counts.active,
                 subdivided: report.counts.divided,
                 unresolved: report.counts.unresolved,
+                coarse: report.counts.coarse,
                 skipped: report.skipped.total(),
                 not_finite: report.counts.unusable,
                 ghosts: report.ghosts,

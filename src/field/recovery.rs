@@ -30,6 +30,9 @@ pub enum RecoveryDegree {
 /// Rings of neighbours beyond which a patch does not grow.
 const MAX_RINGS: usize = 4;
 
+/// Points beyond which a patch does not grow: several times what a cubic needs.
+const MAX_POINTS: usize = 96;
+
 /// Gradients at the points of `mesh`, recovered from one value a point.
 ///
 /// Where even the largest patch does not determine the polynomial, its degree is
@@ -88,13 +91,16 @@ impl Patch {
         self.ring = 0;
     }
 
-    /// Adds the next ring; false if there is none.
+    /// Adds the next ring; false if there is none, or the patch is full.
     fn grow(&mut self, neighbours: &PointNeighbours) -> bool {
         let end = self.points.len();
         for place in self.ring..end {
-            for &point in neighbours.of(self.points[place]) {
+            let around = neighbours.of(self.points[place]);
+            // of a great fan, points all around it
+            let step = around.len().div_ceil(MAX_POINTS).max(1);
+            for &point in around.iter().step_by(step) {
                 // patches are small: a search is faster than a set
-                if !self.points.contains(&point) {
+                if self.points.len() < MAX_POINTS && !self.points.contains(&point) {
                     self.points.push(point);
                 }
             }
@@ -262,6 +268,20 @@ mod tests {
             |p| 3.0 * p.x - p.y,
             |_| Vector::new(3.0, -1.0, 0.0),
         );
+    }
+
+    #[test]
+    fn a_fan_of_many_triangles_has_bounded_patches() {
+        let count = 20_000_u32;
+        let angle = |n: u32| 2.0 * std::f64::consts::PI * f64::from(n) / f64::from(count);
+        let mut points = vec![Vector::zeros()];
+        points.extend((0..count).map(|n| Vector::new(angle(n).cos(), angle(n).sin(), 0.0)));
+        let triangles = (0..count).map(|n| [0, 1 + n, 1 + (n + 1) % count]).collect();
+        let mesh = TriangleMesh::new(points, triangles).unwrap();
+        // all on a circle and its centre: quadratics are not determined, planes are
+        let values: Vec<f64> = mesh.points().iter().map(|p| 2.0 * p.x - p.y).collect();
+        let found = recover_gradients(&mesh, &values, RecoveryDegree::Three);
+        assert!((found[0] - Vector::new(2.0, -1.0, 0.0)).norm() < 1e-9);
     }
 
     #[test]

@@ -118,18 +118,18 @@ impl Report {
         };
         let [low, high] = self.range;
         let outside = lines.levels.iter().filter(|&&level| level < low || level > high);
-        let outside: Vec<String> = outside.map(f64::to_string).collect();
+        let outside: Vec<f64> = outside.copied().collect();
         let label = &self.label;
         warn(
             !outside.is_empty(),
             format!(
-                "no line at {}: outside the range {low:.6} to {high:.6} of '{label}'",
-                outside.join(", ")
+                "no line at {}: outside the range {low:?} to {high:?} of '{label}'",
+                list(&outside)
             ),
         );
         warn(
             lines.levels.is_empty(),
-            format!("'{label}' is {low} everywhere: there is no level inside its range"),
+            format!("'{label}' is {low:?} everywhere: there is no level inside its range"),
         );
         let Counts { unusable, unresolved, .. } = self.counts;
         warn(
@@ -144,11 +144,26 @@ impl Report {
             unresolved > 0,
             format!("{unresolved} tiny pieces could not be settled; straight lines join them"),
         );
+        let coarse = self.counts.coarse;
+        warn(
+            coarse > 0,
+            format!("{coarse} arcs are not as fine as asked: they have too many points"),
+        );
         let (singular, triangles) = (self.singular, self.triangles);
         warn(
             singular > 0,
             format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
         );
         self
+    }
+}
+
+/// Levels in a list that stays short.
+fn list(levels: &[f64]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = levels.iter().take(SHOWN).map(|level| format!("{level:?}")).collect();
+    match levels.len().checked_sub(SHOWN) {
+        Some(more) if more > 0 => format!("{} and {more} more levels", shown.join(", ")),
+        _ => shown.join(", "),
     }
 }

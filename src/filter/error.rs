@@ -69,11 +69,11 @@ pub enum FilterError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
 
-    #[error("{option} must be a positive number, not {value}")]
+    #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
 
     #[error(
-        "{option} {value} is too small: below {least:e}, a millionth of the size of the mesh, \
+        "{option} {value:e} is too small: below {least:e}, a millionth of the size of the mesh, \
          lines would have millions of points"
     )]
     TooSmall { option: &'static str, value: f64, least: f64 },

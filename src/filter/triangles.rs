@@ -87,7 +87,7 @@ fn cut_quad(mut corners: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-/// Which triangles belong to this process: all, unless the grid says otherwise.
+/// Whether the grid marks a cell as one of another process, which contours it.
 pub fn is_ghost(grid: &UnstructuredGrid, cell: u32) -> bool {
     let ghost = grid.cell_data.get("vtkGhostType").map(|array| &array.values);
     match ghost {

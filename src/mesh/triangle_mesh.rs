@@ -68,14 +68,15 @@ impl TriangleMesh {
         a * at[0] + b * at[1] + c * at[2]
     }
 
-    /// The length of the diagonal of the bounding box; zero without points.
+    /// The length of the diagonal of the triangles' bounding box; zero without
+    /// triangles. Points that no triangle uses, and those that are not finite, do not
+    /// count.
     pub fn diagonal(&self) -> f64 {
-        let Some(first) = self.points.first() else { return 0.0 };
-        let (low, high) = self
-            .points
-            .iter()
-            .filter(|point| point.iter().all(|x| x.is_finite()))
-            .fold((*first, *first), |(low, high), point| (low.inf(point), high.sup(point)));
+        let corners = self.triangles.iter().flatten().map(|&point| self.points[point as usize]);
+        let mut finite = corners.filter(|point| point.iter().all(|x| x.is_finite()));
+        let Some(first) = finite.next() else { return 0.0 };
+        let (low, high) =
+            finite.fold((first, first), |(low, high), point| (low.inf(&point), high.sup(&point)));
         (high - low).norm()
     }
 }
@@ -93,7 +94,10 @@ mod tests {
 
     #[test]
     fn position_and_diagonal() {
-        let points = vec![Vector::zeros(), Vector::new(3.0, 0.0, 0.0), Vector::new(0.0, 4.0, 0.0)];
+        let mut points =
+            vec![Vector::zeros(), Vector::new(3.0, 0.0, 0.0), Vector::new(0.0, 4.0, 0.0)];
+        // no triangle uses this one
+        points.push(Vector::repeat(1e9));
         let mesh = TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap();
         assert_eq!(mesh.diagonal(), 5.0);
         assert_eq!(mesh.position(0, &[0.0, 0.5, 0.5]), Vector::new(1.5, 2.0, 0.0));

@@ -60,7 +60,9 @@ pub struct ContourLines {
     /// there; the last entry of a line repeats the one before.
     pub segment_cells: Vec<u32>,
     /// The lines, by level and then in the order of their first cells. Seen from
-    /// the side of the cells' normals, the higher values are on the left.
+    /// the side of the cells' normals, the higher values are on the left; but not
+    /// of both halves of a line that runs straight on where lines cross, and of
+    /// neither side of a ridge or a valley.
     pub lines: Vec<Polyline>,
     /// Bézier pieces, line after line, in the lines' directions. Their ends lie
     /// on the contour; between, they are as near as the method brings them.

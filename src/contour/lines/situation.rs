@@ -8,7 +8,7 @@
 //!
 //! | thesis' case | here |
 //! |---|---|
-//! | 1: no intersection | through the extreme inside, to a corner |
+//! | 1: no intersection, no tangent | through the extreme inside, to a corner |
 //! | 2, 3: one or three intersections, one a tangent | from the tangent point to the corner opposite |
 //! | 4: four intersections (2-1-1, 2-2-0, 3-1-0) | between two crossings of one edge, to the corner opposite |
 //! | 5: more than four | in four, by the middles of the edges |

@@ -23,6 +23,9 @@ pub struct FlatEdge {
     pub in_flat_cell: bool,
     /// The cell.
     pub cell: u32,
+    /// Whether the higher side is on the left of the way from `low` to `high`, as far
+    /// as this cell knows: by its value beside the edge's middle.
+    pub low_to_high: bool,
 }
 
 /// The edges of a cell that lie on the level. `cubic` is the cell's, less the level.
@@ -33,7 +36,12 @@ pub fn flat_edges(cell: u32, points: [u32; 3], cubic: &TriangleCubic) -> Vec<Fla
         .filter(|&edge| zero[edge])
         .map(|edge| {
             let (a, b) = (points[(edge + 1) % 3], points[(edge + 2) % 3]);
-            FlatEdge { low: a.min(b), high: a.max(b), in_flat_cell, cell }
+            // the cell is on the left of its own edges
+            let mut beside = [0.5; 3];
+            beside[edge] = 0.0;
+            let slope = cubic.without_zero_sides().value(&beside);
+            let low_to_high = (a < b) == (slope >= 0.0);
+            FlatEdge { low: a.min(b), high: a.max(b), in_flat_cell, cell, low_to_high }
         })
         .collect()
 }

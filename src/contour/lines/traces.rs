@@ -126,7 +126,9 @@ impl Traces {
             at: corners.map(|corner| f64::from(u8::from(corner == point))),
             position: mesh.points()[point as usize],
         };
-        let (start, end) = (crossing(edge.low), crossing(edge.high));
+        let (from, to) =
+            if edge.low_to_high { (edge.low, edge.high) } else { (edge.high, edge.low) };
+        let (start, end) = (crossing(from), crossing(to));
         if start.position != end.position {
             self.strands.push(Strand {
                 start,

@@ -77,14 +77,28 @@ pub fn middle(arc: &Arc, a: &Node, b: &Node) -> Node {
 pub fn is_fine(arc: &Arc, a: &Node, b: &Node, resolution: &Resolution) -> bool {
     let chord = b.position - a.position;
     let at = |t: f64| a.position + chord * t;
-    chord.norm() <= resolution.spacing && is_near(arc, &at, resolution.tolerance)
+    chord.norm() <= resolution.spacing
+        && is_near(arc, &at, resolution.tolerance)
+        && !turns_back(a, b)
 }
+
+/// Whether the contour turns by more than a sixth of a circle between two points:
+/// across a narrow tongue a chord is near the contour, and the tip is far from it.
+fn turns_back(a: &Node, b: &Node) -> bool {
+    let cosine = a.uphill.dot(&b.uphill);
+    let known = a.uphill != Vector::zeros() && b.uphill != Vector::zeros();
+    known && cosine < 0.5
+}
+
+/// Between the places at which a curve's distance is measured it may be further; a
+/// third more was seen.
+const MARGIN: f64 = 0.7;
 
 /// Whether a curve is within `tolerance` of the contour, by its distances at
 /// three places: one alone would be deceived where the two curves cross.
 pub fn is_near(arc: &Arc, curve: &dyn Fn(f64) -> Vector, tolerance: f64) -> bool {
     tolerance == f64::INFINITY
-        || [0.25, 0.5, 0.75].iter().all(|&t| arc.distance(&curve(t)) <= tolerance)
+        || [0.25, 0.5, 0.75].iter().all(|&t| arc.distance(&curve(t)) <= MARGIN * tolerance)
 }
 
 /// Points of the arc along a Bézier piece of it, as many as the resolution asks

@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::crossing::{Crossing, MAX_CROSSINGS, Owner, crossings};
-use crate::bernstein::{Barycentric, Sign, TriangleCubic, between};
+use crate::bernstein::{Barycentric, SegmentCubic, Sign, TriangleCubic, between};
 use crate::mesh::TriangleFrame;
 
 /// A crossing on the edge of a piece.
@@ -91,7 +91,8 @@ impl Piece {
 pub struct Cell<'a> {
     /// The cell's number.
     pub number: u32,
-    /// The cubic less the level, on the whole cell.
+    /// The cubic less the level, on the whole cell; its coefficients are not far
+    /// above one.
     pub cubic: &'a TriangleCubic,
     /// The cell's frame.
     pub frame: &'a TriangleFrame,
@@ -141,6 +142,7 @@ impl Cell<'_> {
     /// The crossings on a new line inside the cell.
     fn line(&mut self, from: &Corner, to: &Corner) -> EdgeCrossings {
         let restricted = self.cubic.restrict(&from.at, &to.at);
+        let restricted = SegmentCubic::new(restricted.coefficients.map(without_noise));
         let found = crossings(&restricted, from.sign, to.sign);
         found
             .into_iter()
@@ -168,11 +170,23 @@ impl Cell<'_> {
         Piece {
             corners: positions,
             signs: corners.map(|corner| corner.sign),
-            cubic: self.cubic.sub_triangle(&positions),
+            cubic: TriangleCubic::new(
+                self.cubic.sub_triangle(&positions).coefficients.map(without_noise),
+            ),
             edges,
             depth: parent.depth + 1,
         }
     }
+}
+
+/// The error of de Casteljau's algorithm, for coefficients near one.
+const NOISE: f64 = 16.0 * f64::EPSILON;
+
+/// A coefficient, or zero if it is no larger than the error with which it was
+/// computed. A line that happens to lie on the contour is then zero, as it should
+/// be, and not a series of false crossings.
+fn without_noise(coefficient: f64) -> f64 {
+    if coefficient.abs() <= NOISE { 0.0 } else { coefficient }
 }
 
 #[derive(Clone, Copy)]

@@ -29,6 +29,8 @@ struct Cells {
     subdivided: usize,
     /// Pieces whose contour could not be settled.
     unresolved: usize,
+    /// Triangles in which a level is touched, not crossed.
+    touching: usize,
     /// Arcs not as fine as asked.
     coarse: usize,
     /// Cells of types that are not contoured.
@@ -125,6 +127,7 @@ impl Stats {
                 active: report.counts.active,
                 subdivided: report.counts.divided,
                 unresolved: report.counts.unresolved,
+                touching: report.counts.touching,
                 coarse: report.counts.coarse,
                 skipped: report.skipped.total(),
                 not_finite: report.counts.unusable,

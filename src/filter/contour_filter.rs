@@ -144,6 +144,13 @@ impl Report {
             unresolved > 0,
             format!("{unresolved} tiny pieces could not be settled; straight lines join them"),
         );
+        let touching = self.counts.touching;
+        warn(
+            touching > 0,
+            format!(
+                "in {touching} triangles a level is touched, not crossed: no line is drawn there"
+            ),
+        );
         let coarse = self.counts.coarse;
         warn(
             coarse > 0,

@@ -40,6 +40,9 @@ pub struct Counts {
     /// Pieces whose contour could not be settled before the size limit. Their
     /// crossings are joined by straight lines.
     pub unresolved: usize,
+    /// Cells inside which the interpolant touches the level and turns back, as x² does
+    /// at 0. No line is drawn there: a level that differs by rounding has two or none.
+    pub touching: usize,
     /// Arcs that were given as many points as an arc may have, and are still not as
     /// fine as asked.
     pub coarse: usize,

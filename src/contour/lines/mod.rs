@@ -65,6 +65,7 @@ pub fn contour_lines(
         lines.counts.divided += traces.divided;
         lines.counts.unresolved += traces.unresolved;
         lines.counts.coarse += traces.coarse;
+        lines.counts.touching += traces.touching;
         add_level(&mut lines, place, &traces);
     }
     lines

@@ -101,11 +101,15 @@ fn trace_pieces(
 ) {
     let mut waiting = vec![first];
     let mut seen = 0;
+    let mut touched = false;
     while let Some(piece) = waiting.pop() {
         seen += 1;
         let corners = piece.corners.map(|corner| cell.frame.position(&corner));
         match situation(&piece, &corners) {
-            Situation::Empty => join_along_border(cell, &piece, traces),
+            Situation::Empty => {
+                touched |= piece.is_touched();
+                join_along_border(cell, &piece, traces);
+            }
             Situation::Simple { apex } => draw_arc(tracing, rounding, cell, &piece, apex, traces),
             Situation::Undecided(_) if is_at_limit(rounding, &piece, seen) => {
                 traces.unresolved += 1;
@@ -118,6 +122,7 @@ fn trace_pieces(
         }
     }
     traces.divided += usize::from(seen > 1);
+    traces.touching += usize::from(touched);
 }
 
 /// Whether dividing a piece further would only resolve rounding.

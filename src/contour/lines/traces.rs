@@ -50,6 +50,8 @@ pub struct Traces {
     pub divided: usize,
     /// Pieces whose contour could not be settled.
     pub unresolved: usize,
+    /// Cells in which the level is touched, but not crossed.
+    pub touching: usize,
     /// Arcs that are not as fine as asked.
     pub coarse: usize,
     /// The arc that is being drawn; kept so that its memory is used again.
@@ -103,6 +105,7 @@ impl Traces {
         self.divided += other.divided;
         self.unresolved += other.unresolved;
         self.coarse += other.coarse;
+        self.touching += other.touching;
         self
     }
 

@@ -5,7 +5,7 @@ mod support;
 use support::brute_force::{self, Components};
 use support::meshes::{Random, grid, random_square};
 use support::problem4;
-use vtu2contour::bernstein::TriangleCubic;
+use vtu2contour::bernstein::{TriangleCubic, between};
 use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::lines::{ContourLines, Method, Resolution, contour_lines};
 use vtu2contour::field::Field;
@@ -547,6 +547,64 @@ fn segments_are_as_near_and_as_short_as_asked() {
         for line in &lines.lines {
             let points: Vec<_> = lines.line_points(line).map(|p| p.position).collect();
             assert!(points.windows(2).all(|pair| (pair[1] - pair[0]).norm() <= 0.01));
+        }
+    }
+}
+
+/// Points of the contour found by bisection along the lines of a lattice in each cell.
+fn sampled(pci: &Pci, level: f64, n: usize) -> Vec<Vector> {
+    let mut points = Vec::new();
+    for cell in 0..pci.mesh().triangles().len() {
+        let cubic = pci.cubic(cell).minus(level);
+        let at = |j: f64, k: f64| [n as f64 - j - k, j, k].map(|x| x / n as f64);
+        for (j, k) in (0..n).flat_map(|j| (0..n - j).map(move |k| (j as f64, k as f64))) {
+            for to in [at(j + 1.0, k), at(j, k + 1.0)] {
+                let from = at(j, k);
+                let (start, end) = (cubic.value(&from), cubic.value(&to));
+                if start * end < 0.0 {
+                    let (mut low, mut high) = (0.0, 1.0);
+                    for _ in 0..40 {
+                        let middle = 0.5 * (low + high);
+                        let value = cubic.value(&between(&from, &to, middle));
+                        if value * start > 0.0 { low = middle } else { high = middle }
+                    }
+                    points.push(pci.mesh().position(cell, &between(&from, &to, low)));
+                }
+            }
+        }
+    }
+    points
+}
+
+fn distance_to_lines(lines: &ContourLines, point: &Vector) -> f64 {
+    let mut least = f64::INFINITY;
+    for line in &lines.lines {
+        let points: Vec<_> = lines.line_points(line).map(|p| p.position).collect();
+        for pair in points.windows(2) {
+            let along = pair[1] - pair[0];
+            let t = (point - pair[0]).dot(&along) / along.norm_squared();
+            least = least.min((pair[0] + along * t.clamp(0.0, 1.0) - point).norm());
+        }
+    }
+    least
+}
+
+#[test]
+fn no_part_of_the_contour_is_far_from_the_lines() {
+    // narrow tongues too, in which points found across lie next to each other
+    let mut random = Random(8);
+    for case in 0..400 {
+        let mesh = random_square(&mut random, case % 6);
+        let (values, gradients) = random_field(&mut random, mesh.points().len());
+        let pci = Pci::new(&mesh, Field { values: &values, gradients: &gradients });
+        let ranges = CellRanges::new(&pci);
+        let [low, high] = ranges.attained(&pci).unwrap();
+        let level = random_level(&mut random, low, high);
+        let lines = contour_lines(&pci, &ranges, &[level], METHODS[case % 4], COARSE);
+        assert_eq!(lines.counts.coarse, 0);
+        for point in sampled(&pci, level, 24) {
+            let distance = distance_to_lines(&lines, &point);
+            assert!(distance <= COARSE.tolerance, "case {case}: {distance:e} at {point}");
         }
     }
 }

@@ -46,6 +46,13 @@ impl CellArray {
         Ok(Self { offsets, connectivity })
     }
 
+    /// Takes offsets that are known to begin with 0, to rise, and to end at the length of
+    /// the connectivity.
+    pub(super) fn from_checked(offsets: Vec<i64>, connectivity: Vec<i64>) -> Self {
+        debug_assert_eq!(offsets.last(), Some(&(connectivity.len() as i64)));
+        Self { offsets, connectivity }
+    }
+
     /// The number of lists.
     pub fn len(&self) -> usize {
         self.offsets.len().saturating_sub(1)

@@ -22,16 +22,28 @@ pub enum VtkError {
     NotVtk { path: PathBuf, found: String },
 
     /// The file is in VTK's older format.
-    #[error(
-        "'{}' is a legacy VTK file, not XML: convert it, for example with \
-         `python -c \"import pyvista; pyvista.read('IN.vtk').save('OUT.vtu')\"`",
-        path.display()
-    )]
-    Legacy { path: PathBuf },
+    #[error("'{}' is a legacy VTK file, not XML: `read_grid` reads it", path.display())]
+    NotXml { path: PathBuf },
 
     /// The file holds another kind of data.
     #[error("'{}' holds a VTK {}, but a {expected} is expected", path.display(), line(found))]
     OtherType { path: PathBuf, found: String, expected: &'static str },
+
+    /// A file that another one lists cannot be read.
+    #[error("'{}' lists a piece that cannot be read: {problem}", path.display())]
+    Piece { path: PathBuf, problem: Box<VtkError> },
+
+    /// The file lists the files of a series.
+    #[error(
+        "'{}' is a series of files, each at its time, and no single grid: read its entries \
+         one by one",
+        path.display()
+    )]
+    Series { path: PathBuf },
+
+    /// A legacy file contradicts itself, stops too early, or holds what cannot be read.
+    #[error("'{}': {problem}, at byte {offset}", path.display())]
+    Legacy { path: PathBuf, offset: usize, problem: LegacyProblem },
 
     /// The XML is not well formed.
     #[error("'{}': bad XML at byte {offset}: {}", path.display(), line(problem))]
@@ -159,6 +171,31 @@ pub enum ArrayError {
 
     #[error("the faces of cell {cell} contradict its face offset")]
     BadFaces { cell: usize },
+}
+
+/// What is wrong with a legacy file.
+#[derive(Debug, Error, Clone, PartialEq)]
+#[allow(missing_docs)] // the messages say what the fields are
+pub enum LegacyProblem {
+    #[error("the file ends where {expected} should be; copy or write it again")]
+    Ends { expected: &'static str },
+
+    #[error("'{}' where {expected} should be", line(found))]
+    Unexpected { found: String, expected: &'static str },
+
+    #[error(
+        "it holds a {}, not an unstructured grid or polygonal data: convert it, for example with \
+         `python -c \"import pyvista; \
+         pyvista.read('IN.vtk').cast_to_unstructured_grid().save('OUT.vtu')\"`",
+        line(.0)
+    )]
+    OtherType(String),
+
+    #[error("array '{}': {problem}", line(name))]
+    Array { name: String, problem: ArrayError },
+
+    #[error("data of {found} {what}, where the file has {expected}")]
+    Tuples { what: &'static str, found: usize, expected: usize },
 }
 
 /// How many characters of a text, and how many names, a message shows.

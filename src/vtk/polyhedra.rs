@@ -35,7 +35,7 @@ impl Polyhedra {
     }
 
     /// Adds the faces of one polyhedron.
-    fn push_cell(&mut self, stream: &[i64]) -> Option<()> {
+    pub(super) fn push_cell(&mut self, stream: &[i64]) -> Option<()> {
         let (count, mut rest) = stream.split_first()?;
         let count = usize::try_from(*count).ok().filter(|n| *n <= rest.len())?;
         let first = self.faces.len();

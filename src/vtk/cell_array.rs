@@ -70,6 +70,13 @@ impl CellArray {
         self.connectivity.get(start..end)
     }
 
+    /// List `index`, to be changed in place.
+    pub(super) fn get_mut(&mut self, index: usize) -> Option<&mut [i64]> {
+        let start = usize::try_from(*self.offsets.get(index)?).ok()?;
+        let end = usize::try_from(*self.offsets.get(index.checked_add(1)?)?).ok()?;
+        self.connectivity.get_mut(start..end)
+    }
+
     /// The lists in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[i64]> {
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())

@@ -21,6 +21,8 @@ pub(super) struct JoinedSection<'a> {
     /// Arrays left out, and why.
     pub(super) unusable: Vec<(String, String)>,
     repeated: Vec<String>,
+    /// Whether no piece has tuples.
+    pub(super) is_empty: bool,
     /// Whether arrays were asked for by name: then none is left out in silence.
     named: bool,
 }
@@ -36,6 +38,7 @@ impl<'a> JoinedSection<'a> {
             active: Vec::new(),
             unusable: Vec::new(),
             repeated: sections.first().map_or(Vec::new(), |s| s.repeated.clone()),
+            is_empty: filled.is_empty(),
             named: false,
         };
         let Some(model) = model else {

@@ -108,11 +108,18 @@ impl LegacyArray {
         }
         scanner.end_line()?;
         let mut keys = 0usize;
-        while let Some(line) = scanner.line() {
+        loop {
+            let cut = scanner.flaw(LegacyProblem::Ends { expected: "the end of METADATA" });
+            let Some(line) = scanner.line() else {
+                return Err(cut);
+            };
             let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
             if word.eq_ignore_ascii_case(b"component_names") {
                 let lines = (0..self.components).map_while(|_| scanner.line());
                 self.component_names = lines.map(decode).collect();
+                if self.component_names.len() < self.components {
+                    return Err(cut);
+                }
             } else if word.eq_ignore_ascii_case(b"information") {
                 let number = line.get(word.len()..).unwrap_or_default().trim_ascii();
                 keys = Scanner::new(number).count("a count").unwrap_or(0);

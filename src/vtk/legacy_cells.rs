@@ -38,8 +38,8 @@ impl LegacyCells {
             LegacyArray::scan(scanner, coding, name, kind, (count, 1))
         };
         Ok(Self::Lists {
-            offsets: scan("offsets", first)?,
-            connectivity: scan("connectivity", second)?,
+            offsets: scan("OFFSETS", first)?,
+            connectivity: scan("CONNECTIVITY", second)?,
         })
     }
 

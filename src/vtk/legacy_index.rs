@@ -89,7 +89,7 @@ fn read_head(scanner: &mut Scanner<'_>) -> Result<(String, LegacyCoding, LegacyK
         word if word.eq_ignore_ascii_case(b"binary") => LegacyCoding::Binary,
         word => return Err(before.unexpected(word, "ASCII or BINARY")),
     };
-    scanner.expect("dataset")?;
+    scanner.expect("DATASET")?;
     let before = scanner.clone();
     let kind = match scanner.word("the type of data set")? {
         word if word.eq_ignore_ascii_case(b"unstructured_grid") => LegacyKind::Grid,
@@ -254,9 +254,9 @@ impl Parser<'_> {
         let name = self.scanner.name()?;
         let kind = self.scanner.word("a type")?;
         let mut components = 1;
-        if !self.scanner.next_is("lookup_table") {
+        if !self.scanner.next_is("LOOKUP_TABLE") {
             components = self.scanner.count("LOOKUP_TABLE, or the number of components")?;
-            self.scanner.expect("lookup_table")?;
+            self.scanner.expect("LOOKUP_TABLE")?;
         }
         self.scanner.word("the name of a lookup table")?;
         self.add(&name, kind, components, AttributeKind::Scalars)

@@ -22,6 +22,7 @@ use super::legacy_array::LegacyArray;
 use super::legacy_cells::LegacyCells;
 use super::legacy_index::{LegacyIndex, LegacyKind};
 use super::legacy_polyhedra::split_polyhedra;
+use super::old_hexahedra;
 use super::piece::PieceCounts;
 use super::poly_data::PolyData;
 use super::reading::Loaded;
@@ -147,7 +148,18 @@ impl LegacyFile {
         *points = point_data.decode(&self.path, &self.bytes)?;
         *cells = cell_data.decode(&self.path, &self.bytes)?;
         *field = index.field_data.decode(&self.path, &self.bytes)?;
+        if let LegacyData::Grid(grid) = &mut data {
+            self.renumber_old(grid);
+        }
         Ok(Loaded { data, warnings })
+    }
+
+    /// Brings the cells of an old file to today's order of nodes.
+    fn renumber_old(&self, grid: &mut UnstructuredGrid) {
+        if old_hexahedra::is_before(&self.index.version, old_hexahedra::LEGACY_VERSION) {
+            let all = 0..grid.types.len();
+            old_hexahedra::renumber(&mut grid.cells, &grid.types, all, &grid.cell_data);
+        }
     }
 
     /// Points and cells without data.

@@ -176,6 +176,7 @@ pub(super) fn decode(word: &[u8]) -> String {
     let mut rest = word;
     while let Some((first, after)) = rest.split_first() {
         let digits = after.get(..2).filter(|_| *first == b'%');
+        let digits = digits.filter(|digits| digits.iter().all(u8::is_ascii_hexdigit));
         let digits = digits.and_then(|digits| std::str::from_utf8(digits).ok());
         match digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
             Some(byte) => {
@@ -218,7 +219,7 @@ mod tests {
         let flaw = scanner.count("a count").unwrap_err();
         assert_eq!(flaw.offset, 2);
         assert_eq!(flaw.problem.to_string(), "'cd' where a count should be");
-        let flaw = scanner.expect("lookup_table").unwrap_err();
+        let flaw = scanner.expect("LOOKUP_TABLE").unwrap_err();
         assert!(flaw.problem.to_string().contains("the file ends"), "{}", flaw.problem);
     }
 

@@ -55,6 +55,7 @@ mod legacy_reader;
 mod legacy_scanner;
 mod legacy_section;
 mod list_writer;
+mod old_hexahedra;
 mod parallel_file;
 mod payload;
 mod piece;

@@ -62,7 +62,8 @@ impl ParallelFile {
     /// One line for each array that is declared but not in the pieces, or the reverse.
     pub(super) fn compare(&self, sections: &Sections<'_>) -> Vec<String> {
         let mut warnings = Vec::new();
-        for section in [&sections.points, &sections.cells] {
+        let all = [&sections.points, &sections.cells].into_iter();
+        for section in all.filter(|section| !section.is_empty) {
             let declared = self.declared(section.label);
             let is_known = |name: &String| {
                 let read = section.arrays.iter().any(|array| array.name == *name);

@@ -1,9 +1,12 @@
 //! Reading unstructured grids (`.vtu`).
 
+use super::attributes::Attributes;
+use super::cell_array::CellArray;
 use super::cell_reader::{CELLS, Integers, ListSource, read_lists};
 use super::description::{Description, Sections};
 use super::error::VtkError;
 use super::file_bytes::FileBytes;
+use super::old_hexahedra;
 use super::piece::{Piece, PieceCounts};
 use super::pieces::Pieces;
 use super::polyhedra_reader::read_polyhedra;
@@ -92,10 +95,11 @@ pub(super) fn read_grids(
     let mut budget = pieces.budget();
     let reading = Reading::open(pieces, selection, &mut budget)?;
     let types = read_types(&pieces.list, &mut budget)?;
-    let cells = read_lists(CELLS, &cell_sources(&pieces.list), &mut budget)?;
+    let mut cells = read_lists(CELLS, &cell_sources(&pieces.list), &mut budget)?;
     let polyhedra = read_polyhedra(&pieces.list, &mut budget)?;
     let warnings = reading.warnings.clone();
     let decoded = reading.decode()?;
+    renumber_old(pieces, &types, &mut cells, &decoded.cell_data);
     Ok(Loaded {
         data: UnstructuredGrid {
             points: decoded.points,
@@ -119,6 +123,18 @@ fn cell_sources<'a>(pieces: &[Piece<'a>]) -> Vec<ListSource<'a>> {
         bound: piece.counts.points,
     };
     pieces.iter().map(source).collect()
+}
+
+/// Brings the cells of pieces in old files to today's order of nodes.
+fn renumber_old(pieces: &Pieces<'_>, types: &[u8], cells: &mut CellArray, cell_data: &Attributes) {
+    let mut end = 0;
+    for piece in &pieces.list {
+        let start = end;
+        end += piece.counts.cells;
+        if old_hexahedra::is_before(piece.file.version(), old_hexahedra::XML_VERSION) {
+            old_hexahedra::renumber(cells, types, start..end, cell_data);
+        }
+    }
 }
 
 /// Reads the cell types of all pieces.

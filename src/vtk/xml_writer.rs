@@ -51,9 +51,19 @@ pub(super) struct XmlWriter<'a, W: Write> {
 
 impl<'a, W: Write> XmlWriter<'a, W> {
     /// Begins a file of that type of data set.
-    pub(super) fn begin(mut out: W, kind: &str, options: WriteOptions) -> io::Result<Self> {
+    pub(super) fn begin(out: W, kind: &str, options: WriteOptions) -> io::Result<Self> {
+        Self::begin_version(out, kind, "1.0", options)
+    }
+
+    /// Begins a file of that type of data set in that version of the format.
+    pub(super) fn begin_version(
+        mut out: W,
+        kind: &str,
+        version: &str,
+        options: WriteOptions,
+    ) -> io::Result<Self> {
         let mut head = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" \
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"{version}\" \
              byte_order=\"LittleEndian\" header_type=\"UInt64\""
         );
         if let Some(compressor) = compressor(options.encoding) {

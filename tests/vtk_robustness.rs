@@ -413,19 +413,7 @@ fn forged_headers_take_no_memory() {
 fn compressed_bombs_stop_at_the_promised_size() {
     let _guard = alone();
     for compressor in [Compressor::Zlib, Compressor::Lz4, Compressor::Lzma] {
-        let variant = Variant {
-            format: Format::AppendedRaw,
-            compressor: Some(compressor),
-            wide_header: true,
-            big_endian: false,
-            block: 1 << 22,
-        };
-        let mut bomb = vtk_common::Encoder::new("UnstructuredGrid", variant);
-        let zeros = vec![0; 1 << 22];
-        bomb.raw("<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/><FieldData>")
-            .array("a", 1, &vtk_common::u8s(&zeros))
-            .raw("</FieldData>");
-        let bytes = bomb.finish("UnstructuredGrid");
+        let bytes = bomb(compressor, 1 << 22);
         assert!(read("bomb", bytes.clone(), Kind::Vtu).is_ok());
         // The same blocks, promised to be a hundred bytes.
         let mark = bytes.windows(2).position(|pair| pair == b">_").unwrap() + 2;
@@ -433,6 +421,98 @@ fn compressed_bombs_stop_at_the_promised_size() {
         forged[mark + 8..mark + 16].copy_from_slice(&100u64.to_le_bytes());
         assert!(read("bomb", forged, Kind::Vtu).is_err(), "{compressor:?}");
     }
+}
+
+/// Data that nothing measures are left out when they are far larger than the file.
+#[test]
+fn field_data_without_a_length_stay_small() {
+    let _guard = alone();
+    let bytes = bomb(Compressor::Zlib, 20 << 20);
+    assert!(bytes.len() < 1 << 20);
+    assert!(read("field", bytes.clone(), Kind::Vtu).is_ok());
+    let loaded = VtuFile::from_bytes("x.vtu", bytes).unwrap().read(&Selection::All).unwrap();
+    assert!(loaded.data.field_data.is_empty());
+    assert!(loaded.warnings[0].contains("nothing says how many values"), "{:?}", loaded.warnings);
+}
+
+fn bomb(compressor: Compressor, size: usize) -> Vec<u8> {
+    let variant = Variant {
+        format: Format::AppendedRaw,
+        compressor: Some(compressor),
+        wide_header: true,
+        big_endian: false,
+        block: 1 << 22,
+    };
+    let mut bomb = vtk_common::Encoder::new("UnstructuredGrid", variant);
+    let zeros = vec![0; size / 8];
+    bomb.raw("<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/><FieldData>")
+        .array("a", 1, &vtk_common::i64s(&zeros))
+        .raw("</FieldData>");
+    bomb.finish("UnstructuredGrid")
+}
+
+/// A stream of polyhedra in which every number is a face takes a bounded multiple of its
+/// text: 4 as numbers, and 8 as faces.
+#[test]
+fn forged_polyhedra_take_bounded_memory() {
+    let _guard = alone();
+    let faces = 4_000_000;
+    let array = |kind: &str, name: &str, values: &str| {
+        format!("<DataArray type='{kind}' Name='{name}' format='ascii'>{values}</DataArray>")
+    };
+    let text = [
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>",
+        "<Piece NumberOfPoints='1' NumberOfCells='1'><Points>",
+        "<DataArray type='Float32' NumberOfComponents='3'>0 0 0</DataArray></Points><Cells>",
+        &array("Int8", "connectivity", "0"),
+        &array("Int8", "offsets", "1"),
+        &array("UInt8", "types", "42"),
+        &array("Int64", "faces", &format!("{faces}{}", " 0".repeat(faces))),
+        &array("Int64", "faceoffsets", &(faces + 1).to_string()),
+        "</Cells></Piece></UnstructuredGrid></VTKFile>",
+    ]
+    .concat();
+    let bytes = text.into_bytes();
+    let (size, before) = (bytes.len(), counting::begin());
+    read_grid(bytes).unwrap();
+    let taken = counting::peak() - before;
+    assert!(taken <= 13 * size, "{taken} bytes for {size}");
+}
+
+/// Blocks that ask for a dictionary of 64 MiB each and hold 48 bytes.
+#[test]
+fn large_dictionaries_take_no_memory() {
+    let _guard = alone();
+    let variant = Variant {
+        format: Format::AppendedRaw,
+        compressor: Some(Compressor::Lzma),
+        wide_header: false,
+        big_endian: false,
+        block: 48,
+    };
+    let mut bytes = sample(variant);
+    let heads: Vec<usize> = (0..bytes.len() - 24).filter(|at| is_xz_head(&bytes[*at..])).collect();
+    assert!(heads.len() > 10);
+    for head in heads {
+        bytes[head + 16] = 28;
+        let checksum = crc32(&bytes[head + 12..head + 20]).to_le_bytes();
+        bytes[head + 20..head + 24].copy_from_slice(&checksum);
+    }
+    let before = counting::begin();
+    read_grid(bytes).unwrap();
+    let taken = counting::peak() - before;
+    assert!(taken < 4 << 20, "{taken}");
+}
+
+/// The stream's signature, and a head of 12 bytes that names the filter LZMA2.
+fn is_xz_head(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xFD7zXZ\0") && bytes[12..16] == [2, 0, 0x21, 1]
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| (crc >> 1) ^ (0xEDB8_8320 * (crc & 1));
+    let byte = |crc: u32, byte: &u8| (0..8).fold(crc ^ u32::from(*byte), step);
+    !bytes.iter().fold(!0, byte)
 }
 
 /// Many arrays at one offset would add up to more than the file.

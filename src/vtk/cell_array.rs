@@ -89,6 +89,27 @@ impl CellArray {
         self.offsets.push(self.connectivity.len() as i64);
     }
 
+    /// Appends the list of the numbers in `range`.
+    pub(super) fn push_range(&mut self, range: std::ops::Range<usize>) {
+        // Numbers of things in memory fit.
+        self.connectivity.extend(range.start as i64..range.end as i64);
+        self.offsets.push(self.connectivity.len() as i64);
+    }
+
+    /// Makes room for exactly that many more lists and values.
+    pub(super) fn reserve(&mut self, lists: usize, values: usize) {
+        self.offsets.reserve_exact(lists);
+        self.connectivity.reserve_exact(values);
+    }
+
+    /// Appends the lists of another, their values moved by `shift`.
+    pub(super) fn append_moved(&mut self, other: &Self, shift: usize) {
+        let end = self.connectivity.len() as i64;
+        self.reserve(other.len(), other.connectivity.len());
+        self.connectivity.extend(other.connectivity.iter().map(|value| value + shift as i64));
+        self.offsets.extend(other.offsets.iter().skip(1).map(|offset| offset + end));
+    }
+
     /// Where each list begins, and the end of the last: one more than there are lists.
     pub fn offsets(&self) -> &[i64] {
         &self.offsets

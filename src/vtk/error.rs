@@ -135,6 +135,9 @@ pub enum ArrayError {
     #[error("{found} values where {expected} are expected")]
     Count { found: usize, expected: usize },
 
+    #[error("nothing says how many values it has, and its {bytes} bytes are too many")]
+    NoCount { bytes: usize },
+
     #[error("{bytes} bytes are no whole number of values of {size} bytes")]
     PartOfValue { bytes: usize, size: usize },
 

@@ -9,6 +9,9 @@ use super::scalar::Scalar;
 use super::values::{Values, match_type};
 use super::xml_file::{Budget, XmlFile};
 
+/// Bytes that an array of unknown length may have besides four times its file.
+const UNBOUNDED: usize = 16 << 20;
+
 /// One array over all pieces, of which nothing has been read but the head.
 #[derive(Clone)]
 pub(super) struct JoinedArray<'a> {
@@ -36,6 +39,11 @@ pub(super) struct Flaw<'a> {
 }
 
 impl Flaw<'_> {
+    /// Whether the array is of the wrong length: then it can be left out.
+    pub(super) fn is_of_length(&self) -> bool {
+        matches!(self.problem, ArrayError::Count { .. } | ArrayError::NoCount { .. })
+    }
+
     /// The error with its place.
     pub(super) fn into_error(self, section: &str, name: &str) -> VtkError {
         self.file.array_error(section, name, self.problem)
@@ -89,10 +97,20 @@ impl<'a> Part<'a> {
         move |problem| Flaw { file, problem }
     }
 
+    /// Refuses compressed data far larger than the file where nothing says how many there
+    /// must be: no sane file holds them, and VTK takes such arrays for empty.
+    fn check_unbounded(&self) -> Result<(), ArrayError> {
+        let bytes = if self.payload.is_ascii() { 0 } else { self.payload.count(1)? };
+        match bytes > self.file.len().saturating_mul(4).saturating_add(UNBOUNDED) {
+            true => Err(ArrayError::NoCount { bytes }),
+            false => Ok(()),
+        }
+    }
+
     /// Refuses another number of values than there must be, before anything is allocated.
     fn check(&self, kind: ArrayType) -> Result<(), ArrayError> {
         let Some(expected) = self.count else {
-            return Ok(());
+            return self.check_unbounded();
         };
         let size_of = match_type!(kind, T => size_of::<T>(), other => 1);
         let found = self.payload.count(size_of)?;

@@ -134,7 +134,7 @@ impl<'a> JoinedSection<'a> {
             let name = array.name.clone();
             match array.open(budget) {
                 Ok(open) => arrays.push(open),
-                Err(flaw) if !self.named && matches!(flaw.problem, ArrayError::Count { .. }) => {
+                Err(flaw) if !self.named && flaw.is_of_length() => {
                     self.unusable.push((name, flaw.problem.to_string()));
                 }
                 Err(flaw) => return Err(flaw.into_error(self.label, &name)),

@@ -110,14 +110,7 @@ fn append(all: &mut Polyhedra, piece: Polyhedra, points: usize) {
         *all = piece;
         return;
     }
-    let moved = |list: &[i64], shift: usize| -> Vec<i64> {
-        list.iter().map(|index| index + shift as i64).collect()
-    };
     let faces = all.faces.len();
-    for face in piece.faces.iter() {
-        all.faces.push(&moved(face, points));
-    }
-    for cell in piece.cells.iter() {
-        all.cells.push(&moved(cell, faces));
-    }
+    all.faces.append_moved(&piece.faces, points);
+    all.cells.append_moved(&piece.cells, faces);
 }

@@ -97,6 +97,11 @@ impl XmlFile {
         &self.path
     }
 
+    /// Bytes of the file.
+    pub(super) fn len(&self) -> usize {
+        self.bytes.len()
+    }
+
     /// The version of the format, such as `1.0`; empty where it is not given.
     pub(super) fn version(&self) -> &str {
         &self.version

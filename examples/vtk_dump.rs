@@ -1,8 +1,9 @@
-//! Shows what the library reads from `.vtu` and `.vtp` files, and writes them again.
+//! Shows what the library reads from VTK's files, and writes them again.
 //!
 //! ```text
 //! vtk_dump FILE...                            one line of JSON a file
 //! vtk_dump --rewrite ENCODING INPUT OUTPUT    raw, zlib, lz4, lzma, base64 or ascii
+//! vtk_dump --list OUTPUT INPUT...             a .pvtu, .pvtp or .pvd of these files
 //! ```
 //!
 //! A file that cannot be read gives `{"error": "..."}`.
@@ -10,8 +11,9 @@
 use serde_json::{Value, json};
 use std::error::Error;
 use vtu2contour::vtk::{
-    Attributes, CellArray, DataArray, Encoding, PolyData, Selection, UnstructuredGrid, Values,
-    VtkError, VtpFile, VtuFile, WriteOptions, write_vtp, write_vtu,
+    Attributes, CellArray, DataArray, Declaration, Encoding, Floats, LegacyData, LegacyFile,
+    PolyData, PvdEntry, PvdFile, PvtpFile, Selection, UnstructuredGrid, Values, VtkError, VtpFile,
+    VtuFile, WriteOptions, read_grid, write_pvd, write_pvtp, write_pvtu, write_vtp, write_vtu,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -20,6 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [flag, encoding, input, output] if flag == "--rewrite" => {
             rewrite(parse_encoding(encoding)?, input, output)
         }
+        [flag, output, inputs @ ..] if flag == "--list" => list(output, inputs),
         files => {
             for file in files {
                 let value = dump(file).unwrap_or_else(|e| json!({ "error": e.to_string() }));
@@ -30,17 +33,42 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-fn is_poly_data(path: &str) -> bool {
-    path.ends_with(".vtp")
+fn dump(path: &str) -> Result<Value, VtkError> {
+    let extension = path.rsplit('.').next().unwrap_or_default();
+    let all = &Selection::All;
+    match extension {
+        "vtp" => VtpFile::open(path)?.read(all).map(|l| poly_data(&l.data, &l.warnings)),
+        "pvtp" => PvtpFile::open(path)?.read(all).map(|l| poly_data(&l.data, &l.warnings)),
+        "pvd" => PvdFile::open(path).map(|file| series(&file)),
+        "vtk" => LegacyFile::open(path)?.read(all).map(|loaded| match &loaded.data {
+            LegacyData::Grid(data) => grid(data, &loaded.warnings),
+            LegacyData::PolyData(data) => poly_data(data, &loaded.warnings),
+        }),
+        _ => read_grid(path, all).map(|l| grid(&l.data, &l.warnings)),
+    }
 }
 
-fn dump(path: &str) -> Result<Value, VtkError> {
-    if is_poly_data(path) {
-        let loaded = VtpFile::open(path)?.read(&Selection::All)?;
-        return Ok(poly_data(&loaded.data, &loaded.warnings));
+fn series(file: &PvdFile) -> Value {
+    let entry = |entry: &PvdEntry| json!({ "time": entry.time, "part": entry.part, "group": entry.group, "file": entry.file });
+    file.entries().iter().map(entry).collect()
+}
+
+/// Lists files: pieces, or a series whose times are 0, 0.5, 1, ...
+fn list(output: &str, inputs: &[String]) -> Result<(), Box<dyn Error>> {
+    let all = &Selection::All;
+    let first = inputs.first().ok_or("no files")?;
+    if output.ends_with(".pvtu") {
+        let piece = VtuFile::open(first)?.read(all)?.data;
+        write_pvtu(output, inputs, &Declaration::of_grid(&piece, Floats::AsGiven))?;
+    } else if output.ends_with(".pvtp") {
+        let piece = VtpFile::open(first)?.read(all)?.data;
+        write_pvtp(output, inputs, &Declaration::of_poly_data(&piece, Floats::AsGiven))?;
+    } else {
+        let entry = |(index, file)| PvdEntry::new(f64::from(index) / 2.0, file);
+        let entries: Vec<PvdEntry> = (0u32..).zip(inputs).map(entry).collect();
+        write_pvd(output, &entries)?;
     }
-    let loaded = VtuFile::open(path)?.read(&Selection::All)?;
-    Ok(grid(&loaded.data, &loaded.warnings))
+    Ok(())
 }
 
 fn grid(grid: &UnstructuredGrid, warnings: &[String]) -> Value {
@@ -133,7 +161,7 @@ fn parse_encoding(name: &str) -> Result<Encoding, String> {
 
 fn rewrite(encoding: Encoding, input: &str, output: &str) -> Result<(), Box<dyn Error>> {
     let options = WriteOptions::from(encoding);
-    if is_poly_data(input) {
+    if input.ends_with(".vtp") {
         let loaded = VtpFile::open(input)?.read(&Selection::All)?;
         write_vtp(output, &loaded.data, options)?;
     } else {

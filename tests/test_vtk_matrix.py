@@ -77,6 +77,17 @@ def test_we_read_what_vtk_writes(name, dump_program, tmp_path):
         assert_dump(line, data, path.name)
 
 
+@pytest.mark.parametrize("version", ["0.1", "1.0", "2.0", "2.1", "2.3"])
+def test_nodes_of_old_files_are_renumbered_as_vtk_does(version, dump_program, tmp_path):
+    path = tmp_path / "x.vtu"
+    write(GRIDS["higher_order"](), path, "ascii", "None", 32, "Little")
+    text = path.read_text()
+    assert 'version="2.3"' in text
+    path.write_text(text.replace('version="2.3"', f'version="{version}"'))
+    [line] = dump(dump_program, [path])
+    assert_dump(line, read(path), version)
+
+
 @pytest.mark.parametrize("order", ORDERS)
 def test_pieces_are_joined_as_vtk_joins_them(order, dump_program, tmp_path):
     for name in ["blocks", "surface"]:

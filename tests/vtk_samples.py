@@ -2,6 +2,8 @@
 
 import itertools
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 from vtk.util.numpy_support import vtk_to_numpy
@@ -144,6 +146,15 @@ def polyhedra():
     return result
 
 
+def higher_order():
+    """Hexahedra whose nodes VTK 9 numbers otherwise than VTK 8 did."""
+    result = vtk.vtkUnstructuredGrid()
+    result.SetPoints(points(64, True, np.random.default_rng(6)))
+    for kind, size in [(72, 27), (79, 64), (72, 8), (12, 8)]:
+        result.InsertNextCell(kind, size, list(range(size)))
+    return result
+
+
 GRIDS = {
     "empty": lambda: grid(0, 0),
     "points": lambda: grid(3, 0),
@@ -154,6 +165,7 @@ GRIDS = {
     "no_surface": lambda: surface(0, 0),
     "surface": lambda: surface(50, 41),
     "polyhedra": polyhedra,
+    "higher_order": higher_order,
 }
 
 
@@ -165,11 +177,17 @@ def suffix(data):
     return ".vtp" if is_surface(data) else ".vtu"
 
 
-def write(data, path, form, compressor, header, order):
-    surface = is_surface(data)
-    writer = vtk.vtkXMLPolyDataWriter() if surface else vtk.vtkXMLUnstructuredGridWriter()
+def writer_of(data, prefix, path):
+    """VTK's writer of that family: XML, XMLP or none for the older format."""
+    kind = "PolyData" if is_surface(data) else "UnstructuredGrid"
+    writer = getattr(vtk, f"vtk{prefix}{kind}Writer")()
     writer.SetInputData(data)
     writer.SetFileName(str(path))
+    return writer
+
+
+def write(data, path, form, compressor, header, order):
+    writer = writer_of(data, "XML", path)
     getattr(writer, f"SetDataModeTo{form.split('-')[0].capitalize()}")()
     writer.SetEncodeAppendedData(form == "appended-base64")
     getattr(writer, f"SetCompressorTypeTo{compressor}")()
@@ -179,10 +197,28 @@ def write(data, path, form, compressor, header, order):
     assert writer.Write() == 1
 
 
+READERS = {
+    ".vtu": vtk.vtkXMLUnstructuredGridReader,
+    ".vtp": vtk.vtkXMLPolyDataReader,
+    ".pvtu": vtk.vtkXMLPUnstructuredGridReader,
+    ".pvtp": vtk.vtkXMLPPolyDataReader,
+    "unstructured_grid": vtk.vtkUnstructuredGridReader,
+    "polydata": vtk.vtkPolyDataReader,
+}
+
+LEGACY_ROLES = ["Scalars", "Vectors", "Normals", "Tensors", "TCoords", "ColorScalars", "Fields"]
+
+
 def read(path):
-    surface = str(path).endswith(".vtp")
-    reader = vtk.vtkXMLPolyDataReader() if surface else vtk.vtkXMLUnstructuredGridReader()
+    path = Path(path)
+    kind = path.suffix
+    if kind == ".vtk":
+        kind = re.search(rb"(?i)\bdataset\s+(\w+)", path.read_bytes())[1].decode().lower()
+    reader = READERS[kind]()
     reader.SetFileName(str(path))
+    if path.suffix == ".vtk":
+        for role in LEGACY_ROLES:
+            getattr(reader, f"ReadAll{role}On")()
     reader.Update()
     assert reader.GetErrorCode() == 0
     return reader.GetOutput()
@@ -236,6 +272,8 @@ def describe_attributes(data, roles=()):
 
 
 def describe_lists(cells):
+    if cells is None or cells.GetNumberOfCells() == 0:
+        return {"offsets": [0], "connectivity": []}
     return {
         "offsets": vtk_to_numpy(cells.GetOffsetsArray()).tolist(),
         "connectivity": vtk_to_numpy(cells.GetConnectivityArray()).tolist(),
@@ -267,6 +305,9 @@ def as_lists(lists):
     }
 
 
+ROLES = ["Scalars", "Vectors", "Normals", "Tensors", "TCoords", "GlobalIds", "PedigreeIds"]
+
+
 def describe(data):
     if data.GetNumberOfPoints():
         points = describe_array(data.GetPoints().GetData())
@@ -274,8 +315,8 @@ def describe(data):
         points = None
     result = {
         "points": points,
-        "point_data": describe_attributes(data.GetPointData(), ["Scalars", "Vectors"]),
-        "cell_data": describe_attributes(data.GetCellData(), ["Scalars", "Vectors"]),
+        "point_data": describe_attributes(data.GetPointData(), ROLES),
+        "cell_data": describe_attributes(data.GetCellData(), ROLES),
         "field_data": describe_attributes(data.GetFieldData()),
         "warnings": [],
     }

@@ -46,6 +46,13 @@ impl CellArray {
         Ok(Self { offsets, connectivity })
     }
 
+    /// Takes offsets that are known to begin with 0, to rise, and to end at the length of
+    /// the connectivity.
+    pub(super) fn from_checked(offsets: Vec<i64>, connectivity: Vec<i64>) -> Self {
+        debug_assert_eq!(offsets.last(), Some(&(connectivity.len() as i64)));
+        Self { offsets, connectivity }
+    }
+
     /// The number of lists.
     pub fn len(&self) -> usize {
         self.offsets.len().saturating_sub(1)
@@ -63,6 +70,13 @@ impl CellArray {
         self.connectivity.get(start..end)
     }
 
+    /// List `index`, to be changed in place.
+    pub(super) fn get_mut(&mut self, index: usize) -> Option<&mut [i64]> {
+        let start = usize::try_from(*self.offsets.get(index)?).ok()?;
+        let end = usize::try_from(*self.offsets.get(index.checked_add(1)?)?).ok()?;
+        self.connectivity.get_mut(start..end)
+    }
+
     /// The lists in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[i64]> {
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())
@@ -73,6 +87,27 @@ impl CellArray {
         self.connectivity.extend_from_slice(list);
         // A vector never holds more than i64::MAX values.
         self.offsets.push(self.connectivity.len() as i64);
+    }
+
+    /// Appends the list of the numbers in `range`.
+    pub(super) fn push_range(&mut self, range: std::ops::Range<usize>) {
+        // Numbers of things in memory fit.
+        self.connectivity.extend(range.start as i64..range.end as i64);
+        self.offsets.push(self.connectivity.len() as i64);
+    }
+
+    /// Makes room for exactly that many more lists and values.
+    pub(super) fn reserve(&mut self, lists: usize, values: usize) {
+        self.offsets.reserve_exact(lists);
+        self.connectivity.reserve_exact(values);
+    }
+
+    /// Appends the lists of another, their values moved by `shift`.
+    pub(super) fn append_moved(&mut self, other: &Self, shift: usize) {
+        let end = self.connectivity.len() as i64;
+        self.reserve(other.len(), other.connectivity.len());
+        self.connectivity.extend(other.connectivity.iter().map(|value| value + shift as i64));
+        self.offsets.extend(other.offsets.iter().skip(1).map(|offset| offset + end));
     }
 
     /// Where each list begins, and the end of the last: one more than there are lists.

@@ -21,6 +21,7 @@ pub(super) const CELLS: ListNames = ListNames { connectivity: "connectivity", of
 
 /// Where the lists of one piece are.
 pub(super) struct ListSource<'a> {
+    pub(super) file: &'a XmlFile,
     /// The element that holds the arrays, such as `<Cells>`; `None` where it is missing.
     pub(super) section: Option<Node<'a>>,
     /// What messages call it.
@@ -29,6 +30,12 @@ pub(super) struct ListSource<'a> {
     pub(super) count: Option<usize>,
     /// Every index is below this.
     pub(super) bound: usize,
+}
+
+impl ListSource<'_> {
+    fn error(&self, name: &str, problem: ArrayError) -> VtkError {
+        self.file.array_error(&self.label, name, problem)
+    }
 }
 
 /// An array of integers, header checked.
@@ -97,16 +104,15 @@ fn convert<T: Scalar, D: TryFrom<i64>>(source: &[T], dest: &mut [D]) -> Result<(
 /// Reads the lists of all pieces into one array. The indices of each piece are moved by
 /// the bounds of those before it, as their points are.
 pub(super) fn read_lists(
-    file: &XmlFile,
     names: ListNames,
     sources: &[ListSource<'_>],
     budget: &mut Budget,
 ) -> Result<CellArray, VtkError> {
-    let (offsets, totals) = read_offsets(file, names, sources, budget)?;
+    let (offsets, totals) = read_offsets(names, sources, budget)?;
     let mut parts = Vec::with_capacity(sources.len());
     for (source, total) in sources.iter().zip(&totals) {
-        let open = open_values(file, source, names.connectivity, *total, budget);
-        parts.push(open.map_err(|e| file.array_error(&source.label, names.connectivity, e))?);
+        let open = open_values(source, names.connectivity, *total, budget);
+        parts.push(open.map_err(|e| source.error(names.connectivity, e))?);
     }
     let total = offsets.last().copied().unwrap_or(0);
     let mut connectivity = vec![0i64; usize::try_from(total).unwrap_or(0)];
@@ -115,17 +121,15 @@ pub(super) fn read_lists(
     for ((source, part), total) in sources.iter().zip(parts).zip(totals) {
         let (dest, after) = rest.split_at_mut(total);
         let decoded = decode_values(part, dest, source.bound, shift);
-        decoded.map_err(|e| file.array_error(&source.label, names.connectivity, e))?;
+        decoded.map_err(|e| source.error(names.connectivity, e))?;
         rest = after;
         shift += source.bound;
     }
-    CellArray::from_parts(offsets, connectivity)
-        .map_err(|e| file.array_error("all pieces", names.offsets, e))
+    Ok(CellArray::from_checked(offsets, connectivity))
 }
 
 /// The offsets of all pieces with the leading 0, and the connectivity's length in each.
 fn read_offsets(
-    file: &XmlFile,
     names: ListNames,
     sources: &[ListSource<'_>],
     budget: &mut Budget,
@@ -135,9 +139,9 @@ fn read_offsets(
     for source in sources {
         let open = match source.count {
             Some(0) => Ok(None),
-            count => Integers::open(file, source.section, name, count, budget).map(Some),
+            count => Integers::open(source.file, source.section, name, count, budget).map(Some),
         };
-        parts.push(open.map_err(|e| file.array_error(&source.label, name, e))?);
+        parts.push(open.map_err(|e| source.error(name, e))?);
     }
     let counts: Vec<usize> = parts.iter().map(|p| p.as_ref().map_or(0, Integers::count)).collect();
     let lists = counts.iter().fold(1usize, |sum, count| sum.saturating_add(*count));
@@ -150,7 +154,7 @@ fn read_offsets(
             Some(part) => decode_offsets(&part, dest),
             None => Ok(0),
         };
-        totals.push(total.map_err(|e| file.array_error(&source.label, name, e))?);
+        totals.push(total.map_err(|e| source.error(name, e))?);
         start += count;
     }
     Ok((offsets, totals))
@@ -177,7 +181,6 @@ fn decode_offsets(part: &Integers<'_>, dest: &mut [i64]) -> Result<usize, ArrayE
 
 /// Opens the values of lists; none are looked for where there are none.
 fn open_values<'a>(
-    file: &'a XmlFile,
     source: &ListSource<'a>,
     name: &str,
     total: usize,
@@ -185,7 +188,7 @@ fn open_values<'a>(
 ) -> Result<Option<Integers<'a>>, ArrayError> {
     match total {
         0 => Ok(None),
-        _ => Integers::open(file, source.section, name, Some(total), budget).map(Some),
+        _ => Integers::open(source.file, source.section, name, Some(total), budget).map(Some),
     }
 }
 
@@ -230,13 +233,14 @@ mod tests {
         let sources: Vec<_> = nodes
             .zip(pieces)
             .map(|(node, (count, bound, _))| ListSource {
+                file: &file,
                 section: Some(node),
                 label: String::from("Cells"),
                 count: *count,
                 bound: *bound,
             })
             .collect();
-        read_lists(&file, CELLS, &sources, &mut file.budget())
+        read_lists(CELLS, &sources, &mut Budget::of(&[&file]))
     }
 
     fn arrays(kind: &str, connectivity: &str, offsets: &str) -> String {

@@ -5,8 +5,8 @@ use flate2::{Compression, Decompress, FlushDecompress, Status};
 use lzma_rust2::{CheckType, XzOptions, XzReader, XzWriter};
 use std::io::{self, Read, Write};
 
-/// The memory one LZMA block may ask for, in KiB: the dictionary of the highest preset
-/// (64 MiB) and what the decoder needs besides.
+/// The memory one LZMA block may ask for where its head is not as usual, in KiB: the
+/// dictionary of the highest preset (64 MiB) and what the decoder needs besides.
 const LZMA_MEMORY: u32 = 66 << 10;
 
 /// The LZMA preset for writing, VTK's own default.
@@ -102,13 +102,51 @@ fn deflate(bytes: &[u8]) -> io::Result<Vec<u8>> {
 
 /// Returns how many bytes of `dest` were filled.
 fn unxz(block: &[u8], dest: &mut [u8]) -> io::Result<usize> {
-    let mut reader = XzReader::new_mem_limit(block, false, LZMA_MEMORY);
+    let head = xz_head(block, dest.len()).unwrap_or_default();
+    let rest = block.get(head.len()..).unwrap_or_default();
+    let mut reader = XzReader::new_mem_limit(head.chain(rest), false, LZMA_MEMORY);
     reader.read_exact(dest)?;
     // Reading past the end makes the reader check the stream's index and footer.
     match reader.read(&mut [0])? {
         0 => Ok(dest.len()),
         more => Ok(dest.len() + more),
     }
+}
+
+/// The head of an .xz stream with a dictionary no larger than `len`, the decompressed size:
+/// what lies further back is never asked for. Encoders name one of 8 MiB for blocks of
+/// 32 KiB, and setting up that much memory takes longer than decompressing. `None` where the
+/// head is not as usual, or already modest.
+fn xz_head(block: &[u8], len: usize) -> Option<Vec<u8>> {
+    const STREAM_HEAD: usize = 12;
+    const LZMA2: [u8; 2] = [0x21, 1];
+    let words = usize::from(*block.get(STREAM_HEAD)?);
+    let end = STREAM_HEAD + 4 * words;
+    let mut head = block.get(..end + 4)?.to_vec();
+    let flags = *head.get(STREAM_HEAD + 1)?;
+    // One filter, and no sizes before it.
+    let filter = head.get(STREAM_HEAD + 2..STREAM_HEAD + 4)?;
+    if flags != 0 || filter != LZMA2 || head.get(end..)? != crc32(&head[STREAM_HEAD..end]) {
+        return None;
+    }
+    let code = head.get_mut(STREAM_HEAD + 4)?;
+    let modest = (0..*code).find(|code| dictionary(*code) >= len as u64)?;
+    *code = modest;
+    let sum = crc32(head.get(STREAM_HEAD..end)?);
+    head.get_mut(end..)?.copy_from_slice(&sum);
+    Some(head)
+}
+
+/// The size of the dictionary that a code stands for: 4, 6, 8, 12, 16 ... KiB.
+fn dictionary(code: u8) -> u64 {
+    (2 | u64::from(code) & 1) << (u32::from(code) / 2 + 11).min(40)
+}
+
+/// The checksum of the head of an .xz block, which is at most 1024 bytes long.
+fn crc32(bytes: &[u8]) -> [u8; 4] {
+    let step = |crc: u32, _| (crc >> 1) ^ (0xEDB8_8320 * (crc & 1));
+    let byte = |crc: u32, byte: &u8| (0..8).fold(crc ^ u32::from(*byte), step);
+    (!bytes.iter().fold(!0, byte)).to_le_bytes()
 }
 
 fn xz(bytes: &[u8]) -> io::Result<Vec<u8>> {
@@ -172,25 +210,30 @@ mod tests {
         assert!(Compressor::from_name("vtkZstd").is_err());
     }
 
-    fn crc32(bytes: &[u8]) -> u32 {
-        let step = |crc: u32, _| (crc >> 1) ^ (0xEDB8_8320 * (crc & 1));
-        let byte = |crc: u32, byte: &u8| (0..8).fold(crc ^ u32::from(*byte), step);
-        !bytes.iter().fold(!0, byte)
+    /// A block that names the dictionary of that code.
+    fn with_dictionary(code: u8, valid: bool) -> Vec<u8> {
+        let mut block = Compressor::Lzma.compress(&[7; 1000]).unwrap();
+        let end = 12 + usize::from(block[12]) * 4;
+        block[16] = code;
+        let sum = crc32(&block[12..end]);
+        if valid {
+            block[end..end + 4].copy_from_slice(&sum);
+        }
+        block
     }
 
     #[test]
-    fn huge_dictionaries_are_refused() {
-        let mut block = Compressor::Lzma.compress(&[7; 1000]).unwrap();
-        // The header of the first block follows the 12 bytes of the stream's; it says how
-        // long it is in words of 4 bytes, names the filter LZMA2 (0x21), and ends with a
-        // checksum.
-        let end = 12 + (usize::from(block[12]) + 1) * 4;
-        let filter = (12..end).find(|at| block[*at..].starts_with(&[0x21, 1])).unwrap();
-        // The code for a dictionary of 4 GiB.
-        block[filter + 2] = 40;
-        let checksum = crc32(&block[12..end - 4]);
-        block[end - 4..end].copy_from_slice(&checksum.to_le_bytes());
-        let error = Compressor::Lzma.decompress(&block, &mut [0; 1000]);
-        assert!(error.unwrap_err().contains("mem_limit"));
+    fn dictionaries_are_no_larger_than_the_data() {
+        assert_eq!([0, 1, 2, 22, 40].map(dictionary), [4096, 6144, 8192, 8 << 20, 2 << 31]);
+        let head = xz_head(&with_dictionary(40, true), 7000).unwrap();
+        assert_eq!(head[16], 2);
+        assert!(xz_head(&with_dictionary(0, true), 1000).is_none());
+        for code in [0, 1, 22, 40] {
+            let mut dest = [0; 1000];
+            Compressor::Lzma.decompress(&with_dictionary(code, true), &mut dest).unwrap();
+            assert_eq!(dest, [7; 1000]);
+        }
+        let wrong = with_dictionary(40, false);
+        assert!(Compressor::Lzma.decompress(&wrong, &mut [0; 1000]).is_err());
     }
 }

@@ -4,9 +4,9 @@ use super::array_type::ArrayType;
 use super::attributes::AttributeKind;
 use super::joined_array::JoinedArray;
 use super::joined_section::JoinedSection;
-use super::piece::{Piece, PieceCounts};
+use super::piece::PieceCounts;
+use super::pieces::Pieces;
 use super::section::Section;
-use super::xml::Node;
 
 /// What a file holds, known from its head alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,19 +61,19 @@ pub(super) struct Sections<'a> {
 
 impl<'a> Sections<'a> {
     /// Joins the heads of all arrays of a data set.
-    pub(super) fn join(data_set: Node<'a>, pieces: &[Piece<'a>]) -> Self {
+    pub(super) fn join(pieces: &Pieces<'a>) -> Self {
         let read = |label, count: fn(&PieceCounts) -> usize| {
-            let sections = pieces.iter().map(|piece| {
+            let sections = pieces.list.iter().map(|piece| {
                 let tuples = Some(count(&piece.counts));
-                Section::read(piece.node.child(label), tuples)
+                Section::read(piece.file, piece.node.child(label), tuples)
             });
             JoinedSection::join(label, &sections.collect::<Vec<_>>())
         };
-        let field = Section::read(data_set.child("FieldData"), None);
+        let field = pieces.field.map(|(file, node)| Section::read(file, Some(node), None));
         Self {
             points: read("PointData", |counts| counts.points),
             cells: read("CellData", |counts| counts.cells),
-            field: JoinedSection::join("FieldData", &[field]),
+            field: JoinedSection::join("FieldData", &Vec::from_iter(field)),
         }
     }
 
@@ -84,10 +84,10 @@ impl<'a> Sections<'a> {
     }
 
     /// Describes the arrays of a file with these pieces.
-    pub(super) fn describe(&self, version: &str, pieces: &[Piece<'_>]) -> Description {
+    pub(super) fn describe(&self, version: &str, pieces: &Pieces<'_>) -> Description {
         Description {
             version: version.to_owned(),
-            pieces: pieces.iter().map(|piece| piece.counts).collect(),
+            pieces: pieces.list.iter().map(|piece| piece.counts).collect(),
             point_arrays: describe(&self.points),
             cell_arrays: describe(&self.cells),
             field_arrays: describe(&self.field),

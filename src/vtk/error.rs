@@ -2,7 +2,7 @@
 
 use super::array_type::ArrayType;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Why a VTK file could not be read or written.
@@ -10,7 +10,7 @@ use thiserror::Error;
 #[allow(missing_docs)] // the messages say what the fields are
 pub enum VtkError {
     /// The file is missing or may not be read.
-    #[error("cannot read '{}': {source}", path.display())]
+    #[error("cannot read '{}': {source}", file(path))]
     Read { path: PathBuf, source: io::Error },
 
     /// The output could not be created, written or renamed; the message names it.
@@ -18,33 +18,45 @@ pub enum VtkError {
     Write(io::Error),
 
     /// The file is not XML at all, or not VTK's.
-    #[error("'{}' is not a VTK XML file: {}", path.display(), line(found))]
+    #[error("'{}' is not a VTK XML file: {}", file(path), line(found))]
     NotVtk { path: PathBuf, found: String },
 
     /// The file is in VTK's older format.
-    #[error(
-        "'{}' is a legacy VTK file, not XML: convert it, for example with \
-         `python -c \"import pyvista; pyvista.read('IN.vtk').save('OUT.vtu')\"`",
-        path.display()
-    )]
-    Legacy { path: PathBuf },
+    #[error("'{}' is a legacy VTK file, not XML: `read_grid` reads it", file(path))]
+    NotXml { path: PathBuf },
 
     /// The file holds another kind of data.
-    #[error("'{}' holds a VTK {}, but a {expected} is expected", path.display(), line(found))]
+    #[error("'{}' holds a VTK {}, but a {expected} is expected", file(path), line(found))]
     OtherType { path: PathBuf, found: String, expected: &'static str },
 
+    /// A file that another one lists cannot be read.
+    #[error("'{}' lists a piece that cannot be read: {problem}", file(path))]
+    Piece { path: PathBuf, problem: Box<VtkError> },
+
+    /// The file lists the files of a series.
+    #[error(
+        "'{}' is a series of files, each at its time, and no single grid: read its entries \
+         one by one",
+        file(path)
+    )]
+    Series { path: PathBuf },
+
+    /// A legacy file contradicts itself, stops too early, or holds what cannot be read.
+    #[error("'{}': {problem}, at byte {offset}", file(path))]
+    Legacy { path: PathBuf, offset: usize, problem: LegacyProblem },
+
     /// The XML is not well formed.
-    #[error("'{}': bad XML at byte {offset}: {}", path.display(), line(problem))]
+    #[error("'{}': bad XML at byte {offset}: {}", file(path), line(problem))]
     Xml { path: PathBuf, offset: u64, problem: String },
 
     /// The file stops before its end.
-    #[error("'{}' is cut short: {}; copy or write it again", path.display(), line(missing))]
+    #[error("'{}' is cut short: {}; copy or write it again", file(path), line(missing))]
     Truncated { path: PathBuf, missing: String },
 
     /// An attribute of the file or of a piece has a value that means nothing.
     #[error(
         "'{}': <{element}> has {attribute}=\"{}\", expected {expected}",
-        path.display(),
+        file(path),
         line(value)
     )]
     Attribute {
@@ -56,24 +68,20 @@ pub enum VtkError {
     },
 
     /// An array cannot be decoded.
-    #[error("'{}': array '{}' of {section}: {problem}", path.display(), line(name))]
+    #[error("'{}': array '{}' of {section}: {problem}", file(path), line(name))]
     Array { path: PathBuf, section: String, name: String, problem: ArrayError },
 
     /// An array that was asked for is not in the file.
     #[error(
         "'{}' has no array '{}' in {section}; it has {}",
-        path.display(),
+        file(path),
         line(name),
         list(available)
     )]
     MissingArray { path: PathBuf, section: &'static str, name: String, available: Vec<String> },
 
     /// An array that was asked for is in the file, but cannot be used.
-    #[error(
-        "'{}': array '{}' of {section} cannot be used: {reason}",
-        path.display(),
-        line(name)
-    )]
+    #[error("'{}': array '{}' of {section} cannot be used: {reason}", file(path), line(name))]
     UnusableArray { path: PathBuf, section: &'static str, name: String, reason: String },
 
     /// The data given to a writer contradict themselves.
@@ -127,6 +135,9 @@ pub enum ArrayError {
     #[error("{found} values where {expected} are expected")]
     Count { found: usize, expected: usize },
 
+    #[error("nothing says how many values it has, and its {bytes} bytes are too many")]
+    NoCount { bytes: usize },
+
     #[error("{bytes} bytes are no whole number of values of {size} bytes")]
     PartOfValue { bytes: usize, size: usize },
 
@@ -154,11 +165,36 @@ pub enum ArrayError {
     #[error("value {at} is the index {index}, outside 0..{count}")]
     OutOfRange { at: usize, index: i64, count: usize },
 
-    #[error("{value} is no index")]
+    #[error("{} is no index", line(value))]
     NoIndex { value: String },
 
     #[error("the faces of cell {cell} contradict its face offset")]
     BadFaces { cell: usize },
+}
+
+/// What is wrong with a legacy file.
+#[derive(Debug, Error, Clone, PartialEq)]
+#[allow(missing_docs)] // the messages say what the fields are
+pub enum LegacyProblem {
+    #[error("the file ends where {expected} should be; copy or write it again")]
+    Ends { expected: &'static str },
+
+    #[error("'{}' where {expected} should be", line(found))]
+    Unexpected { found: String, expected: &'static str },
+
+    #[error(
+        "it holds a {}, not an unstructured grid or polygonal data: convert it, for example with \
+         `python -c \"import pyvista; \
+         pyvista.read('IN.vtk').cast_to_unstructured_grid().save('OUT.vtu')\"`",
+        line(.0)
+    )]
+    OtherType(String),
+
+    #[error("array '{}': {problem}", line(name))]
+    Array { name: String, problem: ArrayError },
+
+    #[error("data of {found} {what}, where the file has {expected}")]
+    Tuples { what: &'static str, found: usize, expected: usize },
 }
 
 /// How many characters of a text, and how many names, a message shows.
@@ -176,6 +212,19 @@ pub(super) fn line(text: &str) -> String {
             }
             control if control.is_control() => line.extend(control.escape_default()),
             other => line.push(other),
+        }
+    }
+    line
+}
+
+/// The name of a file, such that a message stays one line: it may come from another file.
+fn file(path: &Path) -> String {
+    let name = path.display().to_string();
+    let mut line = String::with_capacity(name.len());
+    for character in name.chars() {
+        match character.is_control() {
+            true => line.extend(character.escape_default()),
+            false => line.push(character),
         }
     }
     line

@@ -1,5 +1,6 @@
 //! The bytes of a file: mapped from the disk, or given in memory.
 
+use super::error::VtkError;
 use memmap2::Mmap;
 use std::fs::File;
 use std::io;
@@ -15,7 +16,23 @@ pub(super) enum FileBytes {
 
 impl FileBytes {
     /// Maps a file; devices and pipes, which cannot be mapped, are read.
-    pub(super) fn open(path: &Path) -> io::Result<Self> {
+    pub(super) fn open(path: &Path) -> Result<Self, VtkError> {
+        let bytes = Self::open_any(path);
+        bytes.map_err(|source| VtkError::Read { path: path.to_owned(), source })
+    }
+
+    /// Maps a file that another one names: a device or pipe would be read without end.
+    pub(super) fn open_regular(path: &Path) -> Result<Self, VtkError> {
+        let is_regular = std::fs::metadata(path).map(|metadata| metadata.is_file());
+        let refused = match is_regular {
+            Ok(true) => return Self::open(path),
+            Ok(false) => io::Error::other("it is no regular file"),
+            Err(error) => error,
+        };
+        Err(VtkError::Read { path: path.to_owned(), source: refused })
+    }
+
+    fn open_any(path: &Path) -> io::Result<Self> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
         if metadata.is_dir() {

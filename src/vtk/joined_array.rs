@@ -3,11 +3,14 @@
 use super::array_head::ArrayHead;
 use super::array_type::ArrayType;
 use super::data_array::DataArray;
-use super::error::ArrayError;
+use super::error::{ArrayError, VtkError};
 use super::payload::Payload;
 use super::scalar::Scalar;
 use super::values::{Values, match_type};
 use super::xml_file::{Budget, XmlFile};
+
+/// Bytes that an array of unknown length may have besides four times its file.
+const UNBOUNDED: usize = 16 << 20;
 
 /// One array over all pieces, of which nothing has been read but the head.
 #[derive(Clone)]
@@ -16,9 +19,35 @@ pub(super) struct JoinedArray<'a> {
     pub(super) array_type: ArrayType,
     pub(super) components: usize,
     pub(super) component_names: Vec<String>,
-    /// The array in every piece that has tuples, and how many; `None` where only the
-    /// data can tell.
-    pub(super) parts: Vec<(ArrayHead<'a>, Option<usize>)>,
+    /// The array in every piece that has tuples.
+    pub(super) parts: Vec<PartHead<'a>>,
+}
+
+/// One array in one piece, of which nothing has been read but the head.
+#[derive(Clone)]
+pub(super) struct PartHead<'a> {
+    pub(super) file: &'a XmlFile,
+    pub(super) head: ArrayHead<'a>,
+    /// How many tuples; `None` where only the data can tell.
+    pub(super) tuples: Option<usize>,
+}
+
+/// What is wrong with an array, and in which file.
+pub(super) struct Flaw<'a> {
+    pub(super) file: &'a XmlFile,
+    pub(super) problem: ArrayError,
+}
+
+impl Flaw<'_> {
+    /// Whether the array is of the wrong length: then it can be left out.
+    pub(super) fn is_of_length(&self) -> bool {
+        matches!(self.problem, ArrayError::Count { .. } | ArrayError::NoCount { .. })
+    }
+
+    /// The error with its place.
+    pub(super) fn into_error(self, section: &str, name: &str) -> VtkError {
+        self.file.array_error(section, name, self.problem)
+    }
 }
 
 impl<'a> JoinedArray<'a> {
@@ -35,34 +64,53 @@ impl<'a> JoinedArray<'a> {
     }
 
     /// Reads the headers of all parts and checks that they promise the right lengths.
-    pub(super) fn open(
-        self,
-        file: &'a XmlFile,
-        budget: &mut Budget,
-    ) -> Result<OpenArray<'a>, ArrayError> {
+    pub(super) fn open(self, budget: &mut Budget) -> Result<OpenArray<'a>, Flaw<'a>> {
         let mut parts = Vec::with_capacity(self.parts.len());
-        for (head, tuples) in &self.parts {
-            let payload = file.payload(head.node, budget)?;
-            let tuples = tuples.map(|tuples| tuples.checked_mul(self.components));
-            let part = Part { payload, count: tuples.map(|count| count.unwrap_or(usize::MAX)) };
-            part.check(self.array_type)?;
-            parts.push(part);
+        for part in &self.parts {
+            let open = self.open_part(part, budget);
+            parts.push(open.map_err(|problem| Flaw { file: part.file, problem })?);
         }
         Ok(OpenArray { head: self, parts })
+    }
+
+    fn open_part(&self, part: &PartHead<'a>, budget: &mut Budget) -> Result<Part<'a>, ArrayError> {
+        let payload = part.file.payload(part.head.node, budget)?;
+        let count = part.tuples.map(|tuples| tuples.checked_mul(self.components));
+        let count = count.map(|count| count.unwrap_or(usize::MAX));
+        let part = Part { file: part.file, payload, count };
+        part.check(self.array_type)?;
+        Ok(part)
     }
 }
 
 /// The encoded values of one piece, and how many there must be.
 struct Part<'a> {
+    file: &'a XmlFile,
     payload: Payload<'a>,
     count: Option<usize>,
 }
 
-impl Part<'_> {
+impl<'a> Part<'a> {
+    /// Adds the file to what is wrong.
+    fn flaw(&self) -> impl Fn(ArrayError) -> Flaw<'a> + use<'a> {
+        let file = self.file;
+        move |problem| Flaw { file, problem }
+    }
+
+    /// Refuses compressed data far larger than the file where nothing says how many there
+    /// must be: no sane file holds them, and VTK takes such arrays for empty.
+    fn check_unbounded(&self) -> Result<(), ArrayError> {
+        let bytes = if self.payload.is_ascii() { 0 } else { self.payload.count(1)? };
+        match bytes > self.file.len().saturating_mul(4).saturating_add(UNBOUNDED) {
+            true => Err(ArrayError::NoCount { bytes }),
+            false => Ok(()),
+        }
+    }
+
     /// Refuses another number of values than there must be, before anything is allocated.
     fn check(&self, kind: ArrayType) -> Result<(), ArrayError> {
         let Some(expected) = self.count else {
-            return Ok(());
+            return self.check_unbounded();
         };
         let size_of = match_type!(kind, T => size_of::<T>(), other => 1);
         let found = self.payload.count(size_of)?;
@@ -85,20 +133,20 @@ pub(super) struct OpenArray<'a> {
     parts: Vec<Part<'a>>,
 }
 
-impl OpenArray<'_> {
+impl<'a> OpenArray<'a> {
     /// Decodes all parts, one after the other, into one array.
-    pub(super) fn decode(self) -> Result<DataArray, ArrayError> {
+    pub(super) fn decode(self) -> Result<DataArray, Flaw<'a>> {
         let values = match self.head.array_type {
             ArrayType::Bit => Values::U8(self.collect(bits)?),
             ArrayType::String => Values::Strings(self.collect(strings)?),
             kind => match_type!(kind, T => T::into_values(self.numbers::<T>()?), other => {
-                return Err(ArrayError::UnknownType(kind.name().to_owned()))
+                Values::U8(Vec::new())
             }),
         };
         let (found, components) = (values.len(), self.head.components);
-        if !found.is_multiple_of(components) {
+        if let Some(part) = self.parts.first().filter(|_| !found.is_multiple_of(components)) {
             let expected = found - found % components;
-            return Err(ArrayError::Count { found, expected });
+            return Err(part.flaw()(ArrayError::Count { found, expected }));
         }
         Ok(DataArray {
             name: self.head.name,
@@ -109,18 +157,20 @@ impl OpenArray<'_> {
     }
 
     /// Numbers are decoded in place, without a copy.
-    fn numbers<T: Scalar>(&self) -> Result<Vec<T>, ArrayError> {
+    fn numbers<T: Scalar>(&self) -> Result<Vec<T>, Flaw<'a>> {
         let mut counts = Vec::with_capacity(self.parts.len());
+        let mut total = 0usize;
         for part in &self.parts {
-            counts.push(part.payload.count(size_of::<T>())?);
+            let count = part.payload.count(size_of::<T>()).map_err(part.flaw())?;
+            let too_many = ArrayError::Count { found: usize::MAX, expected: 0 };
+            total = total.checked_add(count).ok_or(too_many).map_err(part.flaw())?;
+            counts.push(count);
         }
-        let total = counts.iter().try_fold(0usize, |sum, n| sum.checked_add(*n));
-        let too_many = ArrayError::Count { found: usize::MAX, expected: 0 };
-        let mut values = vec![T::zeroed(); total.ok_or(too_many)?];
+        let mut values = vec![T::zeroed(); total];
         let mut rest = &mut values[..];
         for (part, count) in self.parts.iter().zip(counts) {
             let (dest, after) = rest.split_at_mut(count);
-            part.payload.decode(dest)?;
+            part.payload.decode(dest).map_err(part.flaw())?;
             rest = after;
         }
         Ok(values)
@@ -129,10 +179,10 @@ impl OpenArray<'_> {
     fn collect<V>(
         &self,
         read: impl Fn(&Part<'_>) -> Result<Vec<V>, ArrayError>,
-    ) -> Result<Vec<V>, ArrayError> {
+    ) -> Result<Vec<V>, Flaw<'a>> {
         let mut values = Vec::new();
         for part in &self.parts {
-            values.extend(read(part)?);
+            values.append(&mut read(part).map_err(part.flaw())?);
         }
         Ok(values)
     }
@@ -179,8 +229,17 @@ fn codes(numbers: &[i16]) -> Vec<u8> {
 mod tests {
     use super::*;
 
+    use crate::vtk::file_bytes::FileBytes;
+    use std::path::Path;
+    use std::sync::LazyLock;
+
+    static FILE: LazyLock<XmlFile> = LazyLock::new(|| {
+        let bytes = FileBytes::Owned(b"<VTKFile type='x'/>".to_vec());
+        XmlFile::parse(Path::new("x"), bytes, "x").unwrap()
+    });
+
     fn part(text: &str, count: Option<usize>) -> Part<'_> {
-        Part { payload: Payload::ascii(text.as_bytes(), 0), count }
+        Part { file: &FILE, payload: Payload::ascii(text.as_bytes(), 0), count }
     }
 
     #[test]

@@ -4,11 +4,12 @@ use super::array_head::ArrayHead;
 use super::attributes::{AttributeKind, Attributes};
 use super::data_array::DataArray;
 use super::error::{ArrayError, VtkError, line};
-use super::joined_array::{JoinedArray, OpenArray};
+use super::joined_array::{JoinedArray, OpenArray, PartHead};
 use super::section::Section;
-use super::xml_file::{Budget, XmlFile};
+use super::xml_file::Budget;
 use rayon::prelude::*;
 use std::collections::HashSet;
+use std::path::Path;
 
 /// The arrays of one section that every piece with tuples has, alike in all.
 pub(super) struct JoinedSection<'a> {
@@ -20,6 +21,8 @@ pub(super) struct JoinedSection<'a> {
     /// Arrays left out, and why.
     pub(super) unusable: Vec<(String, String)>,
     repeated: Vec<String>,
+    /// Whether no piece has tuples.
+    pub(super) is_empty: bool,
     /// Whether arrays were asked for by name: then none is left out in silence.
     named: bool,
 }
@@ -35,6 +38,7 @@ impl<'a> JoinedSection<'a> {
             active: Vec::new(),
             unusable: Vec::new(),
             repeated: sections.first().map_or(Vec::new(), |s| s.repeated.clone()),
+            is_empty: filled.is_empty(),
             named: false,
         };
         let Some(model) = model else {
@@ -87,7 +91,7 @@ impl<'a> JoinedSection<'a> {
     /// A name that is missing or cannot be used.
     pub(super) fn select(
         mut self,
-        file: &XmlFile,
+        path: &Path,
         names: Option<&[String]>,
     ) -> Result<Self, VtkError> {
         let Some(names) = names else {
@@ -95,7 +99,7 @@ impl<'a> JoinedSection<'a> {
         };
         for name in names {
             if !self.arrays.iter().any(|array| array.name == *name) {
-                return Err(self.missing(file, name));
+                return Err(self.missing(path, name));
             }
         }
         self.named = true;
@@ -107,8 +111,8 @@ impl<'a> JoinedSection<'a> {
         Ok(self)
     }
 
-    fn missing(&self, file: &XmlFile, name: &str) -> VtkError {
-        let (path, name) = (file.path().to_owned(), name.to_owned());
+    fn missing(&self, path: &Path, name: &str) -> VtkError {
+        let (path, name) = (path.to_owned(), name.to_owned());
         match self.unusable.iter().find(|(known, _)| *known == name) {
             Some((_, reason)) => {
                 VtkError::UnusableArray { path, section: self.label, name, reason: reason.clone() }
@@ -124,26 +128,21 @@ impl<'a> JoinedSection<'a> {
 
     /// Reads and checks the headers of all arrays. One of the wrong length is an error if
     /// it was asked for by name, else it is left out, as VTK's reader does.
-    pub(super) fn open(
-        mut self,
-        file: &'a XmlFile,
-        budget: &mut Budget,
-    ) -> Result<OpenSection<'a>, VtkError> {
+    pub(super) fn open(mut self, budget: &mut Budget) -> Result<OpenSection<'a>, VtkError> {
         let mut arrays = Vec::with_capacity(self.arrays.len());
         for array in std::mem::take(&mut self.arrays) {
             let name = array.name.clone();
-            match array.open(file, budget) {
+            match array.open(budget) {
                 Ok(open) => arrays.push(open),
-                Err(problem @ ArrayError::Count { .. }) if !self.named => {
-                    self.unusable.push((name, problem.to_string()));
+                Err(flaw) if !self.named && flaw.is_of_length() => {
+                    self.unusable.push((name, flaw.problem.to_string()));
                 }
-                Err(problem) => return Err(file.array_error(self.label, &name, problem)),
+                Err(flaw) => return Err(flaw.into_error(self.label, &name)),
             }
         }
         let is_open = |name: &String| arrays.iter().any(|array| array.head.name == *name);
         self.active.retain(|(_, name)| is_open(name));
         Ok(OpenSection {
-            file,
             label: self.label,
             warnings: self.warnings(),
             arrays,
@@ -170,14 +169,13 @@ fn join_array<'a>(
             Some(tuples) => Some(tuples),
             None => part.tuples().map_err(|problem| problem.to_string())?,
         };
-        array.parts.push((part.clone(), tuples));
+        array.parts.push(PartHead { file: section.file, head: part.clone(), tuples });
     }
     Ok(array)
 }
 
 /// The arrays of one section, headers checked.
 pub(super) struct OpenSection<'a> {
-    file: &'a XmlFile,
     label: &'static str,
     /// One line for each array that is not read as the file has it.
     pub(super) warnings: Vec<String>,
@@ -188,11 +186,10 @@ pub(super) struct OpenSection<'a> {
 impl OpenSection<'_> {
     /// Decodes all arrays, on all threads.
     pub(super) fn decode(self) -> Result<Attributes, VtkError> {
-        let (file, label) = (self.file, self.label);
+        let label = self.label;
         let decode = |array: OpenArray<'_>| {
             let name = array.head.name.clone();
-            let decoded = array.decode();
-            decoded.map_err(|problem| file.array_error(label, &name, problem))
+            array.decode().map_err(|flaw| flaw.into_error(label, &name))
         };
         // Of several bad arrays, the first is reported, whichever thread is faster.
         let results: Vec<Result<DataArray, _>> = self.arrays.into_par_iter().map(decode).collect();
@@ -204,17 +201,19 @@ impl OpenSection<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vtk::xml::Document;
+    use crate::vtk::file_bytes::FileBytes;
+    use crate::vtk::xml_file::XmlFile;
 
     /// Joins the point data of pieces given as (tuples, arrays).
     fn join(pieces: &[(usize, &str)], check: impl Fn(JoinedSection<'_>)) {
         let parts = pieces.iter().map(|(_, arrays)| format!("<P Scalars='a'>{arrays}</P>"));
-        let text = format!("<x>{}</x>", parts.collect::<String>());
-        let document = Document::parse(text.as_bytes()).unwrap();
-        let nodes = document.root(text.as_bytes()).children();
+        let parts = parts.collect::<String>();
+        let text = format!("<VTKFile type='x'><x>{parts}</x></VTKFile>");
+        let file = XmlFile::parse(Path::new("x"), FileBytes::Owned(text.into()), "x").unwrap();
+        let nodes = file.data_set().unwrap().children();
         let sections: Vec<_> = nodes
             .zip(pieces)
-            .map(|(node, (tuples, _))| Section::read(Some(node), Some(*tuples)))
+            .map(|(node, (tuples, _))| Section::read(&file, Some(node), Some(*tuples)))
             .collect();
         check(JoinedSection::join("PointData", &sections));
     }

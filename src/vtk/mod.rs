@@ -1,23 +1,32 @@
-//! VTK's XML files: unstructured grids (`.vtu`) and polygonal data (`.vtp`).
+//! VTK's files: unstructured grids (`.vtu`, `.pvtu`), polygonal data (`.vtp`, `.pvtp`),
+//! series (`.pvd`), and both kinds of data in the older format (`.vtk`).
 //!
-//! This floor knows formats, not mathematics. Reading takes every encoding VTK writes:
-//! ascii, inline base64, appended base64 and raw; uncompressed, zlib, LZ4 and LZMA; both
-//! widths of header words and both byte orders. [`VtuFile`] and [`VtpFile`] map a file,
-//! describe it without decoding anything, and decode what is asked for; [`write_vtu`] and
-//! [`write_vtp`] write through an [`AtomicFile`], so a killed run leaves no half file.
+//! This floor knows formats, not mathematics. [`read_grid`] reads any of them. Reading XML
+//! takes every encoding VTK writes: ascii, inline base64, appended base64 and raw;
+//! uncompressed, zlib, LZ4 and LZMA; both widths of header words and both byte orders.
+//! [`VtuFile`] and [`VtpFile`] map a file, describe it without decoding anything, and decode
+//! what is asked for; [`PvtuFile`] and [`PvtpFile`] join the files of pieces or give one at a
+//! time; [`PvdFile`] lists the files of a series with their times; [`LegacyFile`] reads the
+//! older format. [`write_vtu`] and [`write_vtp`] write through an [`AtomicFile`], so a killed
+//! run leaves no half file, and so do the writers of lists: [`write_pvtu`], [`write_pvtp`],
+//! [`write_pvd`].
 //!
 //! Files are not trusted. Before anything is allocated, the sizes that a file promises are
 //! checked against each other and against what its bytes can hold; every index is checked
 //! once, here, so that the floors above need not.
 //!
 //! ```text
-//! vtu_reader  vtp_reader               vtu_writer  vtp_writer
-//!   reading, piece, points, cells,       xml_writer, column
-//!   polyhedra, joined arrays               |
-//!     xml_file, array heads                |
-//!       payload: ascii, base64, block table, compression
+//!                         any_file
+//! pvtu_reader  pvtp_reader  pvd_file           legacy_reader
+//!   parallel_file             |     list_writer  legacy_index: sections, cells, arrays
+//! vtu_reader  vtp_reader      |  vtu_writer  vtp_writer    legacy_scanner
+//!   reading, pieces, points,  |    xml_writer, column        |
+//!   cells, joined arrays      |      |                       |
+//!     xml_file, array heads --+      |                       |
+//!       payload: ascii, base64, block table, compression ----+
 //! ```
 
+mod any_file;
 mod array_head;
 mod array_type;
 mod ascii;
@@ -30,18 +39,34 @@ mod cell_reader;
 mod column;
 mod compression;
 mod data_array;
+mod declaration;
 mod description;
 mod encoding;
 mod error;
 mod file_bytes;
+mod file_names;
 mod joined_array;
 mod joined_section;
+mod legacy_array;
+mod legacy_cells;
+mod legacy_index;
+mod legacy_polyhedra;
+mod legacy_reader;
+mod legacy_scanner;
+mod legacy_section;
+mod list_writer;
+mod old_hexahedra;
+mod parallel_file;
 mod payload;
 mod piece;
+mod pieces;
 mod points_reader;
 mod poly_data;
 mod polyhedra;
 mod polyhedra_reader;
+mod pvd_file;
+mod pvtp_reader;
+mod pvtu_reader;
 mod reading;
 mod scalar;
 mod section;
@@ -58,16 +83,23 @@ mod xml;
 mod xml_file;
 mod xml_writer;
 
+pub use any_file::{describe, read_grid};
 pub use array_type::ArrayType;
 pub use atomic_file::AtomicFile;
 pub use attributes::{AttributeKind, Attributes};
 pub use cell_array::CellArray;
 pub use data_array::DataArray;
+pub use declaration::Declaration;
 pub use description::{ArrayInfo, Description};
-pub use error::{ArrayError, VtkError};
+pub use error::{ArrayError, LegacyProblem, VtkError};
+pub use legacy_reader::{LegacyData, LegacyFile};
+pub use list_writer::{write_pvd, write_pvtp, write_pvtu};
 pub use piece::PieceCounts;
 pub use poly_data::PolyData;
 pub use polyhedra::Polyhedra;
+pub use pvd_file::{PvdEntry, PvdFile};
+pub use pvtp_reader::PvtpFile;
+pub use pvtu_reader::PvtuFile;
 pub use reading::Loaded;
 pub use selection::Selection;
 pub use unstructured_grid::UnstructuredGrid;

@@ -55,6 +55,12 @@ impl<'a> Payload<'a> {
         Self { form: Form::Ascii(AsciiText::new(text, offset)), ..Self::empty() }
     }
 
+    /// The bytes of values as they are.
+    pub(super) fn raw(bytes: &'a [u8], offset: usize, order: ByteOrder) -> Self {
+        let coded = Coded { bytes, offset, coding: Coding::Raw };
+        Self { order, form: Form::Plain { coded, skip: 0, bytes: bytes.len() } }
+    }
+
     /// Coded bytes that begin with a header.
     ///
     /// # Errors

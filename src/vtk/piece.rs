@@ -21,28 +21,20 @@ pub struct PieceCounts {
     pub strips: usize,
 }
 
-/// One `<Piece>`.
-#[derive(Clone, Copy)]
-pub(super) struct Piece<'a> {
-    pub(super) node: Node<'a>,
-    pub(super) counts: PieceCounts,
-}
-
-impl<'a> Piece<'a> {
+impl PieceCounts {
     /// Points and cells of a piece of an unstructured grid.
-    pub(super) fn of_grid(file: &XmlFile, node: Node<'a>) -> Result<Self, VtkError> {
-        let counts = PieceCounts {
+    pub(super) fn of_grid(file: &XmlFile, node: Node<'_>) -> Result<Self, VtkError> {
+        Ok(Self {
             points: required(file, node, "NumberOfPoints")?,
             cells: required(file, node, "NumberOfCells")?,
-            ..PieceCounts::default()
-        };
-        Ok(Self { node, counts })
+            ..Self::default()
+        })
     }
 
     /// Points and the four kinds of cells of a piece of polygonal data.
-    pub(super) fn of_poly_data(file: &XmlFile, node: Node<'a>) -> Result<Self, VtkError> {
+    pub(super) fn of_poly_data(file: &XmlFile, node: Node<'_>) -> Result<Self, VtkError> {
         let optional = |name| count(file, node, name).map(Option::unwrap_or_default);
-        let counts = PieceCounts {
+        let counts = Self {
             points: required(file, node, "NumberOfPoints")?,
             verts: optional("NumberOfVerts")?,
             lines: optional("NumberOfLines")?,
@@ -52,18 +44,33 @@ impl<'a> Piece<'a> {
         };
         let kinds = [counts.verts, counts.lines, counts.polys, counts.strips];
         let cells = sum(kinds.into_iter()).ok_or_else(|| bad(file, node, "NumberOfPolys"))?;
-        let counts = PieceCounts { cells, ..counts };
-        Ok(Self { node, counts })
+        Ok(Self { cells, ..counts })
     }
+}
 
-    /// All pieces of a data set.
-    pub(super) fn all(
-        file: &'a XmlFile,
-        read: fn(&XmlFile, Node<'a>) -> Result<Self, VtkError>,
-    ) -> Result<Vec<Self>, VtkError> {
-        let pieces = file.data_set()?.children();
-        let pieces = pieces.filter(|node| node.name() == "Piece");
-        let pieces: Vec<Self> = pieces.map(|node| read(file, node)).collect::<Result<_, _>>()?;
+/// How to read what a `<Piece>` says it holds.
+pub(super) type ReadCounts = fn(&XmlFile, Node<'_>) -> Result<PieceCounts, VtkError>;
+
+/// One `<Piece>`.
+#[derive(Clone, Copy)]
+pub(super) struct Piece<'a> {
+    pub(super) file: &'a XmlFile,
+    pub(super) node: Node<'a>,
+    pub(super) counts: PieceCounts,
+    /// Its place in its file.
+    index: usize,
+}
+
+impl<'a> Piece<'a> {
+    /// All pieces of a data set, one file after the other.
+    pub(super) fn all(files: &[&'a XmlFile], read: ReadCounts) -> Result<Vec<Self>, VtkError> {
+        let mut pieces = Vec::new();
+        for file in files {
+            let nodes = file.data_set()?.children().filter(|node| node.name() == "Piece");
+            for (index, node) in nodes.enumerate() {
+                pieces.push(Self { file, node, counts: read(file, node)?, index });
+            }
+        }
         // Indices are i64, so no more points or cells than that can be told apart.
         for (part, name) in [
             (pieces.iter().map(|p| p.counts.points).collect(), "NumberOfPoints"),
@@ -71,17 +78,17 @@ impl<'a> Piece<'a> {
         ] {
             let total = sum(part.into_iter()).and_then(|total| i64::try_from(total).ok());
             if let (None, Some(first)) = (total, pieces.first()) {
-                return Err(bad(file, first.node, name));
+                return Err(bad(first.file, first.node, name));
             }
         }
         Ok(pieces)
     }
 
-    /// How a message calls piece `index`.
-    pub(super) fn label(section: &str, index: usize) -> String {
-        match index {
+    /// How a message calls a section of the piece.
+    pub(super) fn label(&self, section: &str) -> String {
+        match self.index {
             0 => section.to_owned(),
-            _ => format!("{section} in piece {index}"),
+            index => format!("{section} in piece {index}"),
         }
     }
 }

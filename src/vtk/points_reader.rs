@@ -4,46 +4,51 @@ use super::array_head::ArrayHead;
 use super::array_type::ArrayType;
 use super::data_array::DataArray;
 use super::error::{ArrayError, VtkError};
-use super::joined_array::{JoinedArray, OpenArray};
+use super::joined_array::{Flaw, JoinedArray, OpenArray, PartHead};
 use super::piece::Piece;
 use super::values::Values;
-use super::xml_file::{Budget, XmlFile};
+use super::xml_file::Budget;
 
 const SECTION: &str = "Points";
 
 /// Reads the headers of the points of all pieces.
 pub(super) fn open_points<'a>(
-    file: &'a XmlFile,
     pieces: &[Piece<'a>],
     budget: &mut Budget,
 ) -> Result<OpenArray<'a>, VtkError> {
     join(pieces)
-        .and_then(|points| points.open(file, budget))
-        .map_err(|problem| file.array_error(SECTION, SECTION, problem))
+        .and_then(|points| points.open(budget))
+        .map_err(|flaw| flaw.into_error(SECTION, SECTION))
 }
 
 /// Decodes the points: `Float32` and `Float64` are kept, integers become `Float64`.
-pub(super) fn decode_points(file: &XmlFile, points: OpenArray<'_>) -> Result<DataArray, VtkError> {
-    let mut array =
-        points.decode().map_err(|problem| file.array_error(SECTION, SECTION, problem))?;
+pub(super) fn decode_points(points: OpenArray<'_>) -> Result<DataArray, VtkError> {
+    let mut array = points.decode().map_err(|flaw| flaw.into_error(SECTION, SECTION))?;
     if !array.array_type().is_float() {
         array.values = Values::F64(array.to_f64().unwrap_or_default());
     }
     Ok(array)
 }
 
-fn join<'a>(pieces: &[Piece<'a>]) -> Result<JoinedArray<'a>, ArrayError> {
+fn join<'a>(pieces: &[Piece<'a>]) -> Result<JoinedArray<'a>, Flaw<'a>> {
     let mut joined = None;
     for piece in pieces.iter().filter(|piece| piece.counts.points > 0) {
-        let head = head_of(piece).ok_or(ArrayError::Missing)?;
-        let points = match &mut joined {
-            None => joined.insert(like(&head)?),
-            Some(points) => points,
-        };
-        check_type(&head, points.array_type)?;
-        points.parts.push((head, Some(piece.counts.points)));
+        let added = add(&mut joined, piece);
+        added.map_err(|problem| Flaw { file: piece.file, problem })?;
     }
     Ok(joined.unwrap_or_else(|| no_points(pieces)))
+}
+
+fn add<'a>(joined: &mut Option<JoinedArray<'a>>, piece: &Piece<'a>) -> Result<(), ArrayError> {
+    let head = head_of(piece).ok_or(ArrayError::Missing)?;
+    let points = match joined {
+        None => joined.insert(like(&head)?),
+        Some(points) => points,
+    };
+    check_type(&head, points.array_type)?;
+    let tuples = Some(piece.counts.points);
+    points.parts.push(PartHead { file: piece.file, head, tuples });
+    Ok(())
 }
 
 fn head_of<'a>(piece: &Piece<'a>) -> Option<ArrayHead<'a>> {

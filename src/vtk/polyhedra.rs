@@ -20,6 +20,11 @@ impl Polyhedra {
     /// # Errors
     /// The stream and the ends contradict each other.
     pub(super) fn push_stream(&mut self, stream: &[i64], ends: &[i64]) -> Result<(), ArrayError> {
+        // Counted first: each number of the stream could be a face of its own.
+        let cells = ends.iter().filter(|end| **end >= 0).count();
+        let (faces, points) = count(stream, cells);
+        self.faces.reserve(faces, points);
+        self.cells.reserve(ends.len(), faces);
         let mut start = 0;
         for (cell, end) in ends.iter().enumerate() {
             let bad = ArrayError::BadFaces { cell };
@@ -35,7 +40,7 @@ impl Polyhedra {
     }
 
     /// Adds the faces of one polyhedron.
-    fn push_cell(&mut self, stream: &[i64]) -> Option<()> {
+    pub(super) fn push_cell(&mut self, stream: &[i64]) -> Option<()> {
         let (count, mut rest) = stream.split_first()?;
         let count = usize::try_from(*count).ok().filter(|n| *n <= rest.len())?;
         let first = self.faces.len();
@@ -45,8 +50,7 @@ impl Polyhedra {
             self.faces.push(points.get(..size)?);
             rest = points.get(size..)?;
         }
-        let faces: Vec<i64> = (first..self.faces.len()).map(|face| face as i64).collect();
-        self.cells.push(&faces);
+        self.cells.push_range(first..self.faces.len());
         rest.is_empty().then_some(())
     }
 
@@ -71,6 +75,27 @@ impl Polyhedra {
         }
         (stream, ends)
     }
+}
+
+/// The faces and their points in a stream of polyhedra, as far as it makes sense.
+fn count(stream: &[i64], cells: usize) -> (usize, usize) {
+    let mut values = stream.iter();
+    let (mut faces, mut points) = (0usize, 0usize);
+    for _ in 0..cells {
+        let count = values.next().map_or(0, |count| *count);
+        for _ in 0..count {
+            let Some(size) = values.next().and_then(|size| usize::try_from(*size).ok()) else {
+                return (faces, points);
+            };
+            if size > values.len() {
+                return (faces, points);
+            }
+            faces += 1;
+            points += size;
+            values = values.as_slice().get(size..).unwrap_or_default().iter();
+        }
+    }
+    (faces, points)
 }
 
 #[cfg(test)]

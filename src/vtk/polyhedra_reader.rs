@@ -6,7 +6,7 @@ use super::cell_reader::{Integers, ListNames, ListSource, read_lists};
 use super::error::{ArrayError, VtkError};
 use super::piece::Piece;
 use super::polyhedra::Polyhedra;
-use super::xml_file::{Budget, XmlFile};
+use super::xml_file::Budget;
 
 /// VTK 9.4 and later: the points of every face, and the faces of every cell.
 const FACES: ListNames = ListNames { connectivity: "face_connectivity", offsets: "face_offsets" };
@@ -15,7 +15,6 @@ const CELL_FACES: ListNames =
 
 /// Reads the faces of all pieces; `None` where no piece has any.
 pub(super) fn read_polyhedra(
-    file: &XmlFile,
     pieces: &[Piece<'_>],
     budget: &mut Budget,
 ) -> Result<Option<Polyhedra>, VtkError> {
@@ -24,12 +23,12 @@ pub(super) fn read_polyhedra(
     }
     let mut all = Polyhedra::default();
     let mut points = 0;
-    for (index, piece) in pieces.iter().enumerate() {
-        let label = Piece::label("Cells", index);
+    for piece in pieces {
+        let label = piece.label("Cells");
         let faces = if has(piece, "faceoffsets") {
-            read_stream(file, piece, &label, budget)?
+            read_stream(piece, &label, budget)?
         } else if has(piece, FACES.offsets) {
-            read_face_lists(file, piece, &label, budget)?
+            read_face_lists(piece, &label, budget)?
         } else {
             without_faces(piece.counts.cells)
         };
@@ -56,12 +55,8 @@ fn without_faces(cells: usize) -> Polyhedra {
 }
 
 /// Reads the form of VTK before 9.4.
-fn read_stream(
-    file: &XmlFile,
-    piece: &Piece<'_>,
-    label: &str,
-    budget: &mut Budget,
-) -> Result<Polyhedra, VtkError> {
+fn read_stream(piece: &Piece<'_>, label: &str, budget: &mut Budget) -> Result<Polyhedra, VtkError> {
+    let file = piece.file;
     let mut read = |name: &str, count| {
         let open = Integers::open(file, piece.node.child("Cells"), name, count, budget);
         let values = open.and_then(|integers| {
@@ -92,20 +87,20 @@ fn check_points(polyhedra: &Polyhedra, count: usize) -> Result<(), ArrayError> {
 
 /// Reads the form of VTK 9.4 and later.
 fn read_face_lists(
-    file: &XmlFile,
     piece: &Piece<'_>,
     label: &str,
     budget: &mut Budget,
 ) -> Result<Polyhedra, VtkError> {
     let source = |count, bound| ListSource {
+        file: piece.file,
         section: piece.node.child("Cells"),
         label: label.to_owned(),
         count,
         bound,
     };
-    let faces = read_lists(file, FACES, &[source(None, piece.counts.points)], budget)?;
+    let faces = read_lists(FACES, &[source(None, piece.counts.points)], budget)?;
     let source = source(Some(piece.counts.cells), faces.len());
-    let cells = read_lists(file, CELL_FACES, &[source], budget)?;
+    let cells = read_lists(CELL_FACES, &[source], budget)?;
     Ok(Polyhedra { faces, cells })
 }
 
@@ -115,14 +110,7 @@ fn append(all: &mut Polyhedra, piece: Polyhedra, points: usize) {
         *all = piece;
         return;
     }
-    let moved = |list: &[i64], shift: usize| -> Vec<i64> {
-        list.iter().map(|index| index + shift as i64).collect()
-    };
     let faces = all.faces.len();
-    for face in piece.faces.iter() {
-        all.faces.push(&moved(face, points));
-    }
-    for cell in piece.cells.iter() {
-        all.cells.push(&moved(cell, faces));
-    }
+    all.faces.append_moved(&piece.faces, points);
+    all.cells.append_moved(&piece.cells, faces);
 }

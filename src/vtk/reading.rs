@@ -6,10 +6,10 @@ use super::description::Sections;
 use super::error::VtkError;
 use super::joined_array::OpenArray;
 use super::joined_section::OpenSection;
-use super::piece::Piece;
+use super::pieces::Pieces;
 use super::points_reader::{decode_points, open_points};
 use super::selection::Selection;
-use super::xml_file::{Budget, XmlFile};
+use super::xml_file::Budget;
 
 /// Data read from a file, and what was not read as the file has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +21,15 @@ pub struct Loaded<T> {
     pub warnings: Vec<String>,
 }
 
+impl<T> Loaded<T> {
+    /// The data as something else.
+    pub(super) fn map<U>(self, change: impl FnOnce(T) -> U) -> Loaded<U> {
+        Loaded { data: change(self.data), warnings: self.warnings }
+    }
+}
+
 /// Points and arrays whose headers have been checked, still encoded.
 pub(super) struct Reading<'a> {
-    file: &'a XmlFile,
     points: OpenArray<'a>,
     point_data: OpenSection<'a>,
     cell_data: OpenSection<'a>,
@@ -43,26 +49,25 @@ impl<'a> Reading<'a> {
     /// Reads the headers of the points and of the selected arrays. Every promise of a
     /// size is checked here, before anything is decoded.
     pub(super) fn open(
-        file: &'a XmlFile,
-        pieces: &[Piece<'a>],
+        pieces: &Pieces<'a>,
         selection: &Selection,
         budget: &mut Budget,
     ) -> Result<Self, VtkError> {
-        let sections = Sections::join(file.data_set()?, pieces);
-        let points = open_points(file, pieces, budget)?;
-        let point_data = sections.points.select(file, selection.points())?;
-        let cell_data = sections.cells.select(file, selection.cells())?;
-        let point_data = point_data.open(file, budget)?;
-        let cell_data = cell_data.open(file, budget)?;
-        let field_data = sections.field.open(file, budget)?;
+        let sections = Sections::join(pieces);
+        let points = open_points(&pieces.list, budget)?;
+        let point_data = sections.points.select(pieces.path, selection.points())?;
+        let cell_data = sections.cells.select(pieces.path, selection.cells())?;
+        let point_data = point_data.open(budget)?;
+        let cell_data = cell_data.open(budget)?;
+        let field_data = sections.field.open(budget)?;
         let warnings = [&point_data, &cell_data, &field_data].map(|s| s.warnings.clone());
-        Ok(Self { file, points, point_data, cell_data, field_data, warnings: warnings.concat() })
+        Ok(Self { points, point_data, cell_data, field_data, warnings: warnings.concat() })
     }
 
     /// Decodes everything that was opened.
     pub(super) fn decode(self) -> Result<Decoded, VtkError> {
         Ok(Decoded {
-            points: decode_points(self.file, self.points)?,
+            points: decode_points(self.points)?,
             point_data: self.point_data.decode()?,
             cell_data: self.cell_data.decode()?,
             field_data: self.field_data.decode()?,

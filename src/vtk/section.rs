@@ -3,10 +3,12 @@
 use super::array_head::ArrayHead;
 use super::attributes::AttributeKind;
 use super::xml::Node;
+use super::xml_file::XmlFile;
 use std::collections::HashMap;
 
 /// The arrays of one section of one piece.
 pub(super) struct Section<'a> {
+    pub(super) file: &'a XmlFile,
     /// In the file's order, names all different.
     pub(super) heads: Vec<ArrayHead<'a>>,
     /// The place of each name in `heads`.
@@ -22,8 +24,9 @@ pub(super) struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// Reads the section's head; a missing section has no arrays.
-    pub(super) fn read(node: Option<Node<'a>>, tuples: Option<usize>) -> Self {
+    pub(super) fn read(file: &'a XmlFile, node: Option<Node<'a>>, tuples: Option<usize>) -> Self {
         let mut section = Self {
+            file,
             heads: Vec::new(),
             index: HashMap::new(),
             active: node.map(active).unwrap_or_default(),
@@ -63,15 +66,17 @@ fn active(node: Node<'_>) -> Vec<(AttributeKind, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vtk::xml::Document;
+    use crate::vtk::file_bytes::FileBytes;
+    use std::path::Path;
 
     #[test]
     fn arrays_roles_and_repeated_names() {
-        let text = "<PointData Vectors='v' Scalars='gone'>\
+        let text = "<VTKFile type='PointData'><PointData Vectors='v' Scalars='gone'>\
             <DataArray Name='v' type='Int8'/><Array Name='s' type='String'/><Other/>\
-            <DataArray Name='v' type='Int16' TimeStep='1'/></PointData>";
-        let document = Document::parse(text.as_bytes()).unwrap();
-        let section = Section::read(Some(document.root(text.as_bytes())), Some(3));
+            <DataArray Name='v' type='Int16' TimeStep='1'/></PointData></VTKFile>";
+        let bytes = FileBytes::Owned(text.as_bytes().to_vec());
+        let file = XmlFile::parse(Path::new("x"), bytes, "PointData").unwrap();
+        let section = Section::read(&file, Some(file.data_set().unwrap()), Some(3));
         let names: Vec<_> = section.heads.iter().map(|head| &head.name).collect();
         assert_eq!(names, ["v", "s"]);
         assert_eq!(section.repeated, ["v"]);

@@ -7,6 +7,7 @@ use super::description::{Description, Sections};
 use super::error::VtkError;
 use super::file_bytes::FileBytes;
 use super::piece::{Piece, PieceCounts};
+use super::pieces::Pieces;
 use super::poly_data::PolyData;
 use super::reading::{Loaded, Reading};
 use super::selection::Selection;
@@ -58,9 +59,8 @@ impl VtpFile {
     /// # Errors
     /// A piece does not say how many points it has.
     pub fn description(&self) -> Result<Description, VtkError> {
-        let pieces = Piece::all(&self.file, Piece::of_poly_data)?;
-        let sections = Sections::join(self.file.data_set()?, &pieces);
-        Ok(sections.describe(self.file.version(), &pieces))
+        let pieces = poly_data_pieces(self.file.path(), &[&self.file])?;
+        Ok(Sections::join(&pieces).describe(self.file.version(), &pieces))
     }
 
     /// Decodes points, cells, field data and the selected arrays, and joins all pieces.
@@ -69,45 +69,72 @@ impl VtpFile {
     /// A selected array is missing, or differs between the pieces; or any of the data is
     /// cut, corrupt, or contradicts the rest.
     pub fn read(&self, selection: &Selection) -> Result<Loaded<PolyData>, VtkError> {
-        let file = &self.file;
-        let pieces = Piece::all(file, Piece::of_poly_data)?;
-        let mut budget = file.budget();
-        let reading = Reading::open(file, &pieces, selection, &mut budget)?;
-        let mut cells = |kind| read_cells(file, &pieces, kind, &mut budget);
-        let [verts, lines, polys, strips] =
-            [cells(VERTS)?, cells(LINES)?, cells(POLYS)?, cells(STRIPS)?];
-        let warnings = reading.warnings.clone();
-        let mut decoded = reading.decode()?;
-        sort_cell_data(&mut decoded.cell_data, &pieces);
-        Ok(Loaded {
-            data: PolyData {
-                points: decoded.points,
-                verts,
-                lines,
-                polys,
-                strips,
-                point_data: decoded.point_data,
-                cell_data: decoded.cell_data,
-                field_data: decoded.field_data,
-            },
-            warnings,
-        })
+        read_surfaces(&poly_data_pieces(self.file.path(), &[&self.file])?, selection)
+    }
+
+    /// The parsed file.
+    pub(super) fn xml(&self) -> &XmlFile {
+        &self.file
     }
 }
 
+impl TryFrom<XmlFile> for VtpFile {
+    type Error = VtkError;
+
+    fn try_from(file: XmlFile) -> Result<Self, VtkError> {
+        Ok(Self { file: file.expect(KIND)? })
+    }
+}
+
+/// The pieces of one file or of several.
+pub(super) fn poly_data_pieces<'a>(
+    path: &'a Path,
+    files: &[&'a XmlFile],
+) -> Result<Pieces<'a>, VtkError> {
+    Pieces::of(path, files, PieceCounts::of_poly_data)
+}
+
+/// Decodes and joins pieces.
+pub(super) fn read_surfaces(
+    pieces: &Pieces<'_>,
+    selection: &Selection,
+) -> Result<Loaded<PolyData>, VtkError> {
+    let mut budget = pieces.budget();
+    let reading = Reading::open(pieces, selection, &mut budget)?;
+    let mut cells = |kind| read_cells(&pieces.list, kind, &mut budget);
+    let [verts, lines, polys, strips] =
+        [cells(VERTS)?, cells(LINES)?, cells(POLYS)?, cells(STRIPS)?];
+    let warnings = reading.warnings.clone();
+    let mut decoded = reading.decode()?;
+    sort_cell_data(&mut decoded.cell_data, &pieces.list);
+    Ok(Loaded {
+        data: PolyData {
+            points: decoded.points,
+            verts,
+            lines,
+            polys,
+            strips,
+            point_data: decoded.point_data,
+            cell_data: decoded.cell_data,
+            field_data: decoded.field_data,
+        },
+        warnings,
+    })
+}
+
 fn read_cells(
-    file: &XmlFile,
     pieces: &[Piece<'_>],
     (section, count): CellKind,
     budget: &mut Budget,
 ) -> Result<CellArray, VtkError> {
-    let sources = pieces.iter().enumerate().map(|(index, piece)| ListSource {
+    let sources = pieces.iter().map(|piece| ListSource {
+        file: piece.file,
         section: piece.node.child(section),
-        label: Piece::label(section, index),
+        label: piece.label(section),
         count: Some(count(&piece.counts)),
         bound: piece.counts.points,
     });
-    read_lists(file, CELLS, &sources.collect::<Vec<_>>(), budget)
+    read_lists(CELLS, &sources.collect::<Vec<_>>(), budget)
 }
 
 /// Brings cell data from the order of the pieces to that of the joined data: all verts,

@@ -3,6 +3,7 @@
 use super::atomic_file::AtomicFile;
 use super::column::numbers;
 use super::error::{ArrayError, VtkError};
+use super::old_hexahedra;
 use super::polyhedra::Polyhedra;
 use super::unstructured_grid::UnstructuredGrid;
 use super::write_options::WriteOptions;
@@ -65,7 +66,9 @@ fn check(grid: &UnstructuredGrid) -> Result<(), VtkError> {
 }
 
 fn write(out: impl Write, grid: &UnstructuredGrid, options: WriteOptions) -> io::Result<()> {
-    let mut xml = XmlWriter::begin(out, "UnstructuredGrid", options)?;
+    // Not every program reads the newer version: it is written where it makes a difference.
+    let version = if old_hexahedra::has_any(&grid.types) { "2.1" } else { "1.0" };
+    let mut xml = XmlWriter::begin_version(out, "UnstructuredGrid", version, options)?;
     xml.open("UnstructuredGrid", &[])?;
     write_field(&mut xml, &grid.field_data, options)?;
     let points = grid.points.tuples().to_string();

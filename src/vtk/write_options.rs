@@ -1,5 +1,7 @@
 //! How to write a file.
 
+use super::array_type::ArrayType;
+
 /// How the values of arrays are written down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
@@ -28,6 +30,17 @@ pub enum Floats {
     Single,
     /// `Float32` arrays become `Float64`.
     Double,
+}
+
+impl Floats {
+    /// The type in a file of an array of that type.
+    pub(super) fn applied_to(self, kind: ArrayType) -> ArrayType {
+        match (self, kind) {
+            (Self::Single, ArrayType::F64) => ArrayType::F32,
+            (Self::Double, ArrayType::F32) => ArrayType::F64,
+            _ => kind,
+        }
+    }
 }
 
 /// How to write a file.

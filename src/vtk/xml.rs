@@ -281,6 +281,11 @@ impl<'a> Node<'a> {
         })
     }
 
+    /// As [`children`](Self::children), for where the node itself is given away.
+    pub(super) fn into_children(self) -> impl Iterator<Item = Node<'a>> + use<'a> {
+        self.children()
+    }
+
     /// The first element directly inside that has this name.
     pub(super) fn child(&self, name: &str) -> Option<Node<'a>> {
         self.children().find(|child| child.name() == name)

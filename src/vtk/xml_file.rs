@@ -5,6 +5,7 @@ use super::error::{ArrayError, VtkError};
 use super::file_bytes::FileBytes;
 use super::payload::{Layout, Payload};
 use super::xml::{Document, Node, XmlProblem};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -32,6 +33,14 @@ pub(super) struct Budget {
 }
 
 impl Budget {
+    /// What reading these files may take.
+    pub(super) fn of(files: &[&XmlFile]) -> Self {
+        // Files in memory or mapped do not add up to more than an address holds, but for
+        // the same one several times.
+        let left = files.iter().fold(0usize, |sum, file| sum.saturating_add(file.bytes.len()));
+        Self { left }
+    }
+
     fn charge(&mut self, payload: &Payload<'_>) -> Result<(), ArrayError> {
         let left = self.left.checked_sub(payload.encoded_len());
         self.left = left.ok_or(ArrayError::Overlap)?;
@@ -42,9 +51,7 @@ impl Budget {
 impl XmlFile {
     /// Maps the file and parses its head.
     pub(super) fn open(path: &Path, expected: &'static str) -> Result<Self, VtkError> {
-        let bytes = FileBytes::open(path)
-            .map_err(|source| VtkError::Read { path: path.to_owned(), source })?;
-        Self::parse(path, bytes, expected)
+        Self::parse(path, FileBytes::open(path)?, expected)
     }
 
     /// Parses the head of a file in memory.
@@ -53,19 +60,46 @@ impl XmlFile {
         bytes: FileBytes,
         expected: &'static str,
     ) -> Result<Self, VtkError> {
+        Self::parse_any(path, bytes)?.expect(expected)
+    }
+
+    /// Parses the head of a file in memory, whatever it holds.
+    pub(super) fn parse_any(path: &Path, bytes: FileBytes) -> Result<Self, VtkError> {
         check_signature(path, &bytes)?;
         let document = Document::parse(&bytes).map_err(|problem| xml_error(path, problem))?;
         let root = document.root(&bytes);
-        check_root(path, root, expected)?;
+        check_root(path, root)?;
         let layout = read_layout(path, root)?;
         let version = root.attribute("version").unwrap_or_default().into_owned();
         let appended = read_appended(path, &document, &bytes)?;
         Ok(Self { path: path.to_owned(), bytes, document, layout, version, appended })
     }
 
+    /// Refuses another type of data.
+    pub(super) fn expect(self, expected: &'static str) -> Result<Self, VtkError> {
+        match self.kind() {
+            found if found == expected => Ok(self),
+            found => Err(VtkError::OtherType {
+                path: self.path.clone(),
+                found: found.into_owned(),
+                expected,
+            }),
+        }
+    }
+
+    /// The type of data, as VTK calls it.
+    pub(super) fn kind(&self) -> Cow<'_, str> {
+        self.document.root(&self.bytes).attribute("type").unwrap_or_default()
+    }
+
     /// The file's name, for messages.
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Bytes of the file.
+    pub(super) fn len(&self) -> usize {
+        self.bytes.len()
     }
 
     /// The version of the format, such as `1.0`; empty where it is not given.
@@ -75,17 +109,12 @@ impl XmlFile {
 
     /// The element that holds the data, named as the file's type.
     pub(super) fn data_set(&self) -> Result<Node<'_>, VtkError> {
+        let kind = self.kind();
         let root = self.document.root(&self.bytes);
-        let kind = root.attribute("type").unwrap_or_default();
         root.child(&kind).ok_or_else(|| VtkError::NotVtk {
             path: self.path.clone(),
             found: format!("there is no element <{kind}>"),
         })
-    }
-
-    /// What one reading of the file may take.
-    pub(super) fn budget(&self) -> Budget {
-        Budget { left: self.bytes.len() }
     }
 
     /// Adds the place to what is wrong with an array.
@@ -159,7 +188,7 @@ fn check_signature(path: &Path, bytes: &[u8]) -> Result<(), VtkError> {
         [] => "it is empty",
         [0x1F, 0x8B, ..] => "it is compressed with gzip; unpack it with gunzip",
         [0x89, b'H', b'D', b'F', ..] => "it is HDF5 (.vtkhdf); save it as .vtu in ParaView",
-        _ if bytes.starts_with(b"# vtk DataFile") => return Err(VtkError::Legacy { path }),
+        _ if bytes.starts_with(b"# vtk DataFile") => return Err(VtkError::NotXml { path }),
         _ => return Ok(()),
     };
     Err(VtkError::NotVtk { path, found: found.to_owned() })
@@ -178,16 +207,12 @@ fn xml_error(path: &Path, problem: XmlProblem) -> VtkError {
     }
 }
 
-fn check_root(path: &Path, root: Node<'_>, expected: &'static str) -> Result<(), VtkError> {
+fn check_root(path: &Path, root: Node<'_>) -> Result<(), VtkError> {
     if root.name() != "VTKFile" {
         return Err(VtkError::NotVtk {
             path: path.to_owned(),
             found: format!("its root element is <{}>", root.name()),
         });
-    }
-    let found = root.attribute("type").unwrap_or_default().into_owned();
-    if found != expected {
-        return Err(VtkError::OtherType { path: path.to_owned(), found, expected });
     }
     Ok(())
 }
@@ -307,7 +332,7 @@ mod tests {
         );
         let file = parse(&text).unwrap();
         let node = file.data_set().unwrap().child("DataArray").unwrap();
-        let mut budget = file.budget();
+        let mut budget = Budget::of(&[&file]);
         let mut open = || file.payload(node, &mut budget).map(|_| ());
         let results: Vec<_> = (0..9).map(|_| open()).collect();
         assert_eq!(results[0], Ok(()));

@@ -1,5 +1,6 @@
 //! Writing VTK's XML: elements, arrays in any encoding, appended data.
 
+use super::array_type::ArrayType;
 use super::base64::Encoder;
 use super::column::Column;
 use super::compression::Compressor;
@@ -50,9 +51,19 @@ pub(super) struct XmlWriter<'a, W: Write> {
 
 impl<'a, W: Write> XmlWriter<'a, W> {
     /// Begins a file of that type of data set.
-    pub(super) fn begin(mut out: W, kind: &str, options: WriteOptions) -> io::Result<Self> {
+    pub(super) fn begin(out: W, kind: &str, options: WriteOptions) -> io::Result<Self> {
+        Self::begin_version(out, kind, "1.0", options)
+    }
+
+    /// Begins a file of that type of data set in that version of the format.
+    pub(super) fn begin_version(
+        mut out: W,
+        kind: &str,
+        version: &str,
+        options: WriteOptions,
+    ) -> io::Result<Self> {
         let mut head = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" \
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"{version}\" \
              byte_order=\"LittleEndian\" header_type=\"UInt64\""
         );
         if let Some(compressor) = compressor(options.encoding) {
@@ -73,6 +84,21 @@ impl<'a, W: Write> XmlWriter<'a, W> {
         Ok(())
     }
 
+    /// Writes an element with nothing inside.
+    pub(super) fn empty(&mut self, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
+        let mut tag = format!("<{name}");
+        for (key, value) in attributes {
+            push_attribute(&mut tag, key, value);
+        }
+        self.line(&format!("{tag}/>"))
+    }
+
+    /// Writes the element that declares an array of the pieces.
+    pub(super) fn declare(&mut self, kind: ArrayType, tag: &ArrayTag<'_>) -> io::Result<()> {
+        let (_, head) = start_tag("P", tag, kind);
+        self.line(&format!("{head}/>"))
+    }
+
     /// Writes an end tag.
     pub(super) fn close(&mut self, name: &str) -> io::Result<()> {
         self.depth = self.depth.saturating_sub(1);
@@ -89,7 +115,7 @@ impl<'a, W: Write> XmlWriter<'a, W> {
         tag: &ArrayTag<'_>,
         column: Box<dyn Column + 'a>,
     ) -> io::Result<()> {
-        let (element, head) = start_tag(tag, &*column);
+        let (element, head) = start_tag("", tag, column.array_type());
         match self.encoding {
             Encoding::Ascii => {
                 self.line(&format!("{head} format=\"ascii\">"))?;
@@ -173,13 +199,12 @@ fn byte_count(column: &dyn Column) -> u64 {
 }
 
 /// The element's name, and its start tag as far as the format.
-fn start_tag(tag: &ArrayTag<'_>, column: &dyn Column) -> (&'static str, String) {
-    let kind = column.array_type();
+fn start_tag(prefix: &str, tag: &ArrayTag<'_>, kind: ArrayType) -> (&'static str, String) {
     let element = match kind {
-        super::ArrayType::String => "Array",
+        ArrayType::String => "Array",
         _ => "DataArray",
     };
-    let mut head = format!("<{element} type=\"{kind}\"");
+    let mut head = format!("<{prefix}{element} type=\"{kind}\"");
     push_attribute(&mut head, "Name", tag.name);
     if tag.components != 1 {
         push_attribute(&mut head, "NumberOfComponents", &tag.components.to_string());

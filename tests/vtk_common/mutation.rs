@@ -38,7 +38,7 @@ const NUMBERS: [&str; 10] = [
     "99999999999999999999999",
 ];
 
-const WORDS: [&str; 22] = [
+const WORDS: [&str; 36] = [
     "Int8",
     "UInt64",
     "Float32",
@@ -61,6 +61,20 @@ const WORDS: [&str; 22] = [
     "types",
     "faces",
     "Points",
+    "SCALARS",
+    "VECTORS",
+    "FIELD",
+    "METADATA",
+    "COMPONENT_NAMES",
+    "OFFSETS",
+    "CONNECTIVITY",
+    "POINT_DATA",
+    "CELL_DATA",
+    "vtktypeint64",
+    "float",
+    "double",
+    "string",
+    "5.1",
 ];
 
 /// Changes one thing somewhere.

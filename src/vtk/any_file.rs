@@ -1,0 +1,138 @@
+//! One way into every file that holds a grid or a surface, whatever its format.
+
+use super::description::Description;
+use super::error::VtkError;
+use super::file_bytes::FileBytes;
+use super::legacy_reader::{LegacyData, LegacyFile, SIGNATURE};
+use super::poly_data::PolyData;
+use super::pvd_file;
+use super::pvtp_reader::PvtpFile;
+use super::pvtu_reader::PvtuFile;
+use super::reading::Loaded;
+use super::selection::Selection;
+use super::unstructured_grid::UnstructuredGrid;
+use super::vtp_reader::VtpFile;
+use super::vtu_reader::VtuFile;
+use super::xml_file::XmlFile;
+use std::path::Path;
+
+/// Reads a `.vtu`, `.pvtu`, `.vtp`, `.pvtp` or legacy `.vtk` file as a grid: the format is
+/// known by the file's content, not by its name. Vertices, lines, polygons and strips of
+/// surfaces become cells of the grid. Pieces are joined; for one piece at a time there is
+/// [`PvtuFile::pieces`].
+///
+/// # Errors
+/// [`VtkError::Series`]: the file is a `.pvd`, whose entries are read one by one. Else as
+/// the readers of the formats: [`VtuFile`], [`PvtuFile`], [`VtpFile`], [`PvtpFile`],
+/// [`LegacyFile`].
+pub fn read_grid(
+    path: impl AsRef<Path>,
+    selection: &Selection,
+) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+    match AnyFile::open(path.as_ref())? {
+        AnyFile::Vtu(file) => file.read(selection),
+        AnyFile::Pvtu(file) => file.read(selection),
+        AnyFile::Vtp(file) => file.read(selection).map(|loaded| loaded.map(PolyData::into_grid)),
+        AnyFile::Pvtp(file) => file.read(selection).map(|loaded| loaded.map(PolyData::into_grid)),
+        AnyFile::Legacy(file) => {
+            file.read(selection).map(|loaded| loaded.map(LegacyData::into_grid))
+        }
+    }
+}
+
+/// What is in a file that [`read_grid`] reads. Nothing is decoded; of a `.pvtu` or `.pvtp`
+/// every piece is opened.
+///
+/// # Errors
+/// As [`read_grid`].
+pub fn describe(path: impl AsRef<Path>) -> Result<Description, VtkError> {
+    match AnyFile::open(path.as_ref())? {
+        AnyFile::Vtu(file) => file.description(),
+        AnyFile::Pvtu(file) => file.description(),
+        AnyFile::Vtp(file) => file.description(),
+        AnyFile::Pvtp(file) => file.description(),
+        AnyFile::Legacy(file) => Ok(file.description()),
+    }
+}
+
+/// An open file of any format.
+enum AnyFile {
+    Vtu(VtuFile),
+    Pvtu(PvtuFile),
+    Vtp(VtpFile),
+    Pvtp(PvtpFile),
+    Legacy(LegacyFile),
+}
+
+impl AnyFile {
+    fn open(path: &Path) -> Result<Self, VtkError> {
+        let bytes = FileBytes::open(path)?;
+        if bytes.starts_with(SIGNATURE) {
+            return LegacyFile::parse(path, bytes).map(Self::Legacy);
+        }
+        let file = XmlFile::parse_any(path, bytes)?;
+        let kind = file.kind().into_owned();
+        match &kind[..] {
+            "PUnstructuredGrid" => file.try_into().map(Self::Pvtu),
+            "PolyData" => file.try_into().map(Self::Vtp),
+            "PPolyData" => file.try_into().map(Self::Pvtp),
+            pvd_file::KIND => Err(VtkError::Series { path: path.to_owned() }),
+            _ => file.try_into().map(Self::Vtu),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point in each format, under names that say nothing.
+    #[test]
+    fn formats_are_known_by_their_content() {
+        let points = "<Points><DataArray type='Float32' NumberOfComponents='3'>1 2 3</DataArray>\
+                      </Points>";
+        let verts = "<Verts><DataArray type='Int8' Name='connectivity'>0</DataArray>\
+                     <DataArray type='Int8' Name='offsets'>1</DataArray></Verts>";
+        let cells = "<DataArray type='Int8' Name='types'>1</DataArray></Cells>";
+        let cells = verts.replace("Verts", "Cells").replace("</Cells>", cells);
+        let xml = |kind: &str, inside: &str| {
+            format!("<VTKFile type='{kind}'><{kind}>{inside}</{kind}></VTKFile>")
+        };
+        let piece = |counts: &str, inside: &str| {
+            format!("<Piece NumberOfPoints='1' {counts}='1'>{points}{inside}</Piece>")
+        };
+        let files = [
+            xml("UnstructuredGrid", &piece("NumberOfCells", &cells)),
+            xml("PolyData", &piece("NumberOfVerts", verts)),
+            xml("PUnstructuredGrid", "<Piece Source='0'/>"),
+            xml("PPolyData", "<Piece Source='1'/>"),
+            String::from(
+                "# vtk DataFile Version 2.0\n\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\n\
+                 VERTICES 1 2\n1 0\n",
+            ),
+            xml("Collection", "<DataSet timestep='0' file='0'/>"),
+            xml("ImageData", ""),
+        ];
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files.iter().enumerate() {
+            std::fs::write(folder.path().join(name.to_string()), text).unwrap();
+        }
+        for name in ["0", "1", "2", "3", "4"] {
+            let path = folder.path().join(name);
+            let grid = read_grid(&path, &Selection::All).unwrap().data;
+            assert_eq!(grid.points.values, vec![1f32, 2.0, 3.0].into(), "{name}");
+            assert_eq!((grid.cells.connectivity(), &grid.types[..]), (&[0i64][..], &[1u8][..]));
+            let description = describe(&path).unwrap();
+            assert_eq!((description.points(), description.cells()), (1, 1), "{name}");
+        }
+        let error = |name: &str| {
+            let path = folder.path().join(name);
+            let error = read_grid(&path, &Selection::All).unwrap_err();
+            assert_eq!(error.to_string(), describe(&path).unwrap_err().to_string());
+            error
+        };
+        assert!(matches!(error("5"), VtkError::Series { .. }));
+        assert!(error("6").to_string().contains("holds a VTK ImageData"));
+        assert!(matches!(error("7"), VtkError::Read { .. }));
+    }
+}

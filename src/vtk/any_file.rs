@@ -56,6 +56,7 @@ pub fn describe(path: impl AsRef<Path>) -> Result<Description, VtkError> {
 }
 
 /// An open file of any format.
+#[allow(clippy::large_enum_variant)] // there is one of it, for a moment
 enum AnyFile {
     Vtu(VtuFile),
     Pvtu(PvtuFile),

@@ -22,10 +22,12 @@ mod factors;
 mod roots;
 mod segment;
 mod sign;
+mod tetrahedron;
 mod triangle;
 
 pub use barycentric::{Barycentric, between};
 pub use roots::{MAX_ROOTS, Root, RootKind, Roots};
 pub use segment::SegmentCubic;
 pub use sign::Sign;
+pub use tetrahedron::{Barycentric4, TetrahedronCubic};
 pub use triangle::TriangleCubic;

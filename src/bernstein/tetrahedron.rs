@@ -1,0 +1,302 @@
+//! Cubic polynomials on a tetrahedron.
+
+use super::segment::SegmentCubic;
+use super::triangle::TriangleCubic;
+
+/// Barycentric coordinates in a tetrahedron: weights of its four vertices.
+pub type Barycentric4 = [f64; 4];
+
+/// A cubic polynomial on a tetrahedron, by its twenty Bernstein coefficients.
+///
+/// `p(λ) = Σ b_ijkl 3!/(i! j! k! l!) λ₀ⁱ λ₁ʲ λ₂ᵏ λ₃ˡ` over `i + j + k + l = 3`.
+///
+/// The coefficients stand in layers from vertex 0 to the opposite face; each layer
+/// is ordered as the coefficients of a [`TriangleCubic`] are, so the last one *is*
+/// the cubic on that face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TetrahedronCubic {
+    /// Bernstein coefficients, layer by layer.
+    pub coefficients: [f64; 20],
+}
+
+/// Exponents of the four barycentric coordinates.
+pub type Exponents = [usize; 4];
+
+/// The position of the coefficient with the given exponents. It does not depend on
+/// the first, so it serves polynomials of any degree.
+const fn position([_, j, k, l]: Exponents) -> usize {
+    let (layer, row) = (j + k + l, k + l);
+    layer * (layer + 1) * (layer + 2) / 6 + row * (row + 1) / 2 + l
+}
+
+/// The exponents of the coefficients of a polynomial of the given degree, in order
+/// of position; `COUNT` must be their number.
+const fn exponents<const COUNT: usize>(degree: usize) -> [Exponents; COUNT] {
+    let mut all = [[0; 4]; COUNT];
+    let mut j = 0;
+    while j <= degree {
+        let mut k = 0;
+        while j + k <= degree {
+            let mut l = 0;
+            while j + k + l <= degree {
+                let one = [degree - j - k - l, j, k, l];
+                all[position(one)] = one;
+                l += 1;
+            }
+            k += 1;
+        }
+        j += 1;
+    }
+    all
+}
+
+const CUBIC: [Exponents; 20] = exponents(3);
+
+/// For each coefficient of a polynomial of one degree less, the positions of the
+/// four from which de Casteljau's algorithm makes it.
+const fn parents<const COUNT: usize>(degree: usize) -> [[usize; 4]; COUNT] {
+    let below: [Exponents; COUNT] = exponents(degree - 1);
+    let mut all = [[0; 4]; COUNT];
+    let mut n = 0;
+    while n < COUNT {
+        let mut vertex = 0;
+        while vertex < 4 {
+            let mut raised = below[n];
+            raised[vertex] += 1;
+            all[n][vertex] = position(raised);
+            vertex += 1;
+        }
+        n += 1;
+    }
+    all
+}
+
+const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
+const TO_LINEAR: [[usize; 4]; 4] = parents(2);
+
+impl TetrahedronCubic {
+    /// The cubic with the given coefficients, layer by layer from vertex 0.
+    pub fn new(coefficients: [f64; 20]) -> Self {
+        Self { coefficients }
+    }
+
+    /// The cubic with coefficients given by a function of their exponents.
+    pub fn from_coefficients(coefficient: impl FnMut(Exponents) -> f64) -> Self {
+        Self { coefficients: CUBIC.map(coefficient) }
+    }
+
+    /// The cubic that equals the linear function with the given vertex values.
+    pub fn linear(values: [f64; 4]) -> Self {
+        Self::from_coefficients(|exponents| match exponents.iter().position(|&e| e == 3) {
+            Some(vertex) => values[vertex],
+            None => {
+                let terms = exponents.iter().zip(values).map(|(&e, value)| e as f64 * value);
+                terms.sum::<f64>() / 3.0
+            }
+        })
+    }
+
+    /// The coefficient with the given exponents, whose sum must be three.
+    pub fn coefficient(&self, exponents: Exponents) -> f64 {
+        debug_assert_eq!(exponents.iter().sum::<usize>(), 3);
+        self.coefficients[position(exponents)]
+    }
+
+    /// The value at `at`, by de Casteljau's algorithm.
+    pub fn value(&self, at: &Barycentric4) -> f64 {
+        dot(&self.slopes(at), at)
+    }
+
+    /// Derivatives with respect to the four barycentric coordinates, each taken as
+    /// an independent variable. The gradient is `Σ ∂p/∂λᵢ ∇λᵢ`.
+    pub fn barycentric_gradient(&self, at: &Barycentric4) -> [f64; 4] {
+        self.slopes(at).map(|value| 3.0 * value)
+    }
+
+    /// Second derivatives with respect to the barycentric coordinates, taken as
+    /// independent variables. The Hessian is `Σ ∂²p/∂λᵢ∂λⱼ ∇λᵢ ∇λⱼᵀ`.
+    pub fn barycentric_hessian(&self, at: &Barycentric4) -> [[f64; 4]; 4] {
+        let quadratic = contract(&TO_QUADRATIC, &self.coefficients, at);
+        let entry = |i: usize, j: usize| {
+            let mut exponents = [0; 4];
+            exponents[i] += 1;
+            exponents[j] += 1;
+            6.0 * quadratic[position(exponents)]
+        };
+        [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
+    }
+
+    /// The four coefficients that are left after two steps of de Casteljau.
+    fn slopes(&self, at: &Barycentric4) -> [f64; 4] {
+        contract(&TO_LINEAR, &contract(&TO_QUADRATIC, &self.coefficients, at), at)
+    }
+
+    /// The cubic on the edge from one vertex to another.
+    pub fn edge(&self, [from, to]: [usize; 2]) -> SegmentCubic {
+        let coefficient = |n: usize| {
+            let mut exponents = [0; 4];
+            exponents[from] += 3 - n;
+            exponents[to] += n;
+            self.coefficient(exponents)
+        };
+        SegmentCubic::new([0, 1, 2, 3].map(coefficient))
+    }
+
+    /// The cubic on the face with the given three vertices, in their order.
+    pub fn face(&self, vertices: [usize; 3]) -> TriangleCubic {
+        TriangleCubic::from_coefficients(|on_face| {
+            let mut exponents = [0; 4];
+            for (vertex, exponent) in vertices.iter().zip(on_face) {
+                exponents[*vertex] = exponent;
+            }
+            self.coefficient(exponents)
+        })
+    }
+
+    /// The cubic on the straight line from `a` (t = 0) to `b` (t = 1).
+    pub fn restrict(&self, a: &Barycentric4, b: &Barycentric4) -> SegmentCubic {
+        let at_a = contract(&TO_QUADRATIC, &self.coefficients, a);
+        let at_b = contract(&TO_QUADRATIC, &self.coefficients, b);
+        let (aa, ab) = (contract(&TO_LINEAR, &at_a, a), contract(&TO_LINEAR, &at_a, b));
+        let bb = contract(&TO_LINEAR, &at_b, b);
+        SegmentCubic::new([dot(&aa, a), dot(&aa, b), dot(&ab, b), dot(&bb, b)])
+    }
+
+    /// The same polynomial on the tetrahedron with the given corners.
+    pub fn sub_tetrahedron(&self, corners: &[Barycentric4; 4]) -> Self {
+        let once = corners.map(|corner| contract(&TO_QUADRATIC, &self.coefficients, &corner));
+        Self::from_coefficients(|exponents| {
+            let [a, b, c] = arguments(exponents);
+            let twice = contract(&TO_LINEAR, &once[a], &corners[b]);
+            dot(&twice, &corners[c])
+        })
+    }
+
+    /// The polynomial minus a constant.
+    pub fn minus(&self, constant: f64) -> Self {
+        Self::new(self.coefficients.map(|c| c - constant))
+    }
+
+    /// Certain bounds: the least and the greatest coefficient. The polynomial lies
+    /// between them everywhere in the tetrahedron.
+    pub fn bounds(&self) -> (f64, f64) {
+        self.coefficients
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
+    }
+}
+
+/// The three vertices, with repeats, that exponents stand for.
+fn arguments(exponents: Exponents) -> [usize; 3] {
+    let mut vertices = [0; 3];
+    let mut place = 0;
+    for (vertex, &exponent) in exponents.iter().enumerate() {
+        for _ in 0..exponent {
+            vertices[place] = vertex;
+            place += 1;
+        }
+    }
+    vertices
+}
+
+/// One step of de Casteljau's algorithm.
+fn contract<const FROM: usize, const TO: usize>(
+    parents: &[[usize; 4]; TO],
+    coefficients: &[f64; FROM],
+    at: &Barycentric4,
+) -> [f64; TO] {
+    parents.map(|of| {
+        let terms = of.map(|position| coefficients[position]);
+        dot(&terms, at)
+    })
+}
+
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn definition(cubic: &TetrahedronCubic, at: &Barycentric4) -> f64 {
+        let factorial = [1.0, 1.0, 2.0, 6.0];
+        let term = |exponents: Exponents| {
+            let weight: f64 = 6.0 / exponents.map(|e| factorial[e]).iter().product::<f64>();
+            let powers = exponents.iter().zip(at).map(|(&e, x)| x.powi(e as i32));
+            weight * powers.product::<f64>() * cubic.coefficient(exponents)
+        };
+        CUBIC.map(term).iter().sum()
+    }
+
+    fn cubics() -> impl Strategy<Value = TetrahedronCubic> {
+        prop::collection::vec(-1.0..1.0f64, 20)
+            .prop_map(|c| TetrahedronCubic::new(c.try_into().unwrap()))
+    }
+
+    fn inside() -> impl Strategy<Value = Barycentric4> {
+        prop::array::uniform4(0.01..1.0f64).prop_map(|w| {
+            let sum: f64 = w.iter().sum();
+            w.map(|x| x / sum)
+        })
+    }
+
+    #[test]
+    fn edges_and_faces_by_hand() {
+        let numbered: Vec<f64> = (0..20).map(f64::from).collect();
+        let cubic = TetrahedronCubic::new(numbered.try_into().unwrap());
+        assert_eq!(cubic.edge([0, 1]).coefficients, [0.0, 1.0, 4.0, 10.0]);
+        assert_eq!(cubic.edge([3, 2]).coefficients, [19.0, 18.0, 17.0, 16.0]);
+        let opposite = cubic.face([1, 2, 3]).coefficients;
+        assert_eq!(opposite.to_vec(), (10..20).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(cubic.coefficient([0, 1, 1, 1]), 14.0);
+    }
+
+    proptest! {
+        #[test]
+        fn value_is_the_definition(p in cubics(), at in inside()) {
+            prop_assert!((p.value(&at) - definition(&p, &at)).abs() < 1e-14);
+            let (low, high) = p.bounds();
+            prop_assert!(low <= p.value(&at) && p.value(&at) <= high);
+        }
+
+        #[test]
+        fn faces_are_the_polynomial(p in cubics(), s in 0.0..0.5f64, t in 0.0..0.5f64) {
+            for vertices in [[0, 1, 2], [3, 1, 0], [2, 3, 1]] {
+                let on_face = [1.0 - s - t, s, t];
+                let mut at = [0.0; 4];
+                for (vertex, weight) in vertices.iter().zip(on_face) {
+                    at[*vertex] = weight;
+                }
+                prop_assert!((p.face(vertices).value(&on_face) - p.value(&at)).abs() < 1e-14);
+            }
+        }
+
+        #[test]
+        fn restriction_is_the_polynomial(p in cubics(), a in inside(), b in inside(), t in 0.0..1.0f64) {
+            let at = [0, 1, 2, 3].map(|n| (1.0 - t) * a[n] + t * b[n]);
+            prop_assert!((p.restrict(&a, &b).value(t) - p.value(&at)).abs() < 1e-14);
+        }
+
+        #[test]
+        fn sub_tetrahedron_is_the_polynomial(
+            p in cubics(), corners in prop::array::uniform4(inside()), at in inside(),
+        ) {
+            let whole = [0, 1, 2, 3].map(|n| (0..4).map(|c| at[c] * corners[c][n]).sum::<f64>());
+            prop_assert!((p.sub_tetrahedron(&corners).value(&at) - p.value(&whole)).abs() < 1e-14);
+        }
+
+        #[test]
+        fn derivatives_are_slopes(p in cubics(), a in inside(), b in inside()) {
+            let line = p.restrict(&a, &b);
+            let middle = [0, 1, 2, 3].map(|n| 0.5 * (a[n] + b[n]));
+            let direction = [0, 1, 2, 3].map(|n| b[n] - a[n]);
+            let slope = dot(&p.barycentric_gradient(&middle), &direction);
+            let hessian = p.barycentric_hessian(&middle);
+            let bend = dot(&hessian.map(|row| dot(&row, &direction)), &direction);
+            prop_assert!((slope - line.derivative(0.5)).abs() < 1e-13);
+            prop_assert!((bend - line.second_derivative(0.5)).abs() < 1e-12);
+        }
+    }
+}

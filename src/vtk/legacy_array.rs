@@ -242,7 +242,9 @@ fn skip_strings(
     let start = scanner.position();
     for _ in 0..count {
         match coding {
-            LegacyCoding::Binary => drop(scanner.string()?),
+            LegacyCoding::Binary => {
+                scanner.string()?;
+            }
             LegacyCoding::Ascii if scanner.line().is_some() => {}
             LegacyCoding::Ascii => {
                 return Err(scanner.flaw(LegacyProblem::Ends { expected: "a string" }));

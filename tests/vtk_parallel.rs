@@ -148,6 +148,22 @@ fn names_may_be_absolute_or_lead_out_of_the_folder() {
 }
 
 #[test]
+fn field_data_of_the_list_come_before_those_of_the_pieces() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = write_pieces(folder.path(), &[empty(), tetrahedron(7), tetrahedron(9)]);
+    let time = |text: &str| {
+        let file = PvtuFile::from_bytes(&list, text.to_owned().into_bytes()).unwrap();
+        let field = file.read(&Selection::All).unwrap().data.field_data;
+        field.get("TimeValue").unwrap().values.clone()
+    };
+    let text = std::fs::read_to_string(&list).unwrap();
+    assert_eq!(time(&text), vec![7.0].into());
+    let field = "<FieldData><DataArray type=\"Int8\" Name=\"TimeValue\" NumberOfTuples=\"1\">\
+                 5</DataArray></FieldData><PPointData";
+    assert_eq!(time(&text.replace("<PPointData", field)), vec![5i8].into());
+}
+
+#[test]
 fn surfaces_in_pieces() {
     let folder = tempfile::tempdir().unwrap();
     let mut names = Vec::new();

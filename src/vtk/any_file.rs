@@ -62,14 +62,14 @@ enum AnyFile {
     Pvtu(PvtuFile),
     Vtp(VtpFile),
     Pvtp(PvtpFile),
-    Legacy(LegacyFile),
+    Legacy(Box<LegacyFile>),
 }
 
 impl AnyFile {
     fn open(path: &Path) -> Result<Self, VtkError> {
         let bytes = FileBytes::open(path)?;
         if bytes.starts_with(SIGNATURE) {
-            return LegacyFile::parse(path, bytes).map(Self::Legacy);
+            return LegacyFile::parse(path, bytes).map(|file| Self::Legacy(Box::new(file)));
         }
         let file = XmlFile::parse_any(path, bytes)?;
         let kind = file.kind().into_owned();

@@ -136,18 +136,32 @@ impl CellArray {
     }
 }
 
+/// How many indices one thread checks at a time.
+const CHUNK: usize = 1 << 16;
+
 /// Refuses offsets that fall.
 pub(super) fn check_rising(offsets: &[i64]) -> Result<(), ArrayError> {
-    match offsets.windows(2).position(|pair| pair[0] > pair[1]) {
-        None => Ok(()),
-        Some(cell) => Err(ArrayError::FallingOffsets { cell }),
+    // Seldom false, so looked at as a whole first, without a branch for each.
+    let pairs = offsets.iter().zip(offsets.iter().skip(1));
+    if !pairs.fold(false, |any, (left, right)| any | (left > right)) {
+        return Ok(());
     }
+    let cell = offsets.windows(2).position(|pair| pair[0] > pair[1]);
+    Err(ArrayError::FallingOffsets { cell: cell.unwrap_or(0) })
 }
 
 /// The place of the first index outside `0..count`.
 pub(super) fn first_outside(indices: &[i64], count: usize) -> Option<usize> {
-    // As unsigned numbers, negative indices are beyond every count.
-    indices.iter().position(|index| *index as u64 >= count as u64)
+    use rayon::prelude::*;
+    let last = i64::try_from(count).map_or(i64::MAX, |count| count - 1);
+    // Negative where the index is, or is greater than the last: no branch for each.
+    let signs = |chunk: &[i64]| {
+        chunk.iter().fold(0, |signs, index| signs | index | last.wrapping_sub(*index))
+    };
+    let bad = indices.par_chunks(CHUNK).position_first(|chunk| signs(chunk) < 0)? * CHUNK;
+    let rest = indices.get(bad..).unwrap_or_default();
+    let place = rest.iter().position(|index| *index < 0 || *index > last)?;
+    Some(bad + place)
 }
 
 #[cfg(test)]
@@ -184,5 +198,13 @@ mod tests {
         let error = cells.check_indices(2).unwrap_err();
         assert!(matches!(error, ArrayError::IndexOutOfRange { cell: 2, index: -1, count: 2 }));
         assert!(CellArray::new().check_indices(0).is_ok());
+        for index in [i64::MIN, -1, 7, i64::MAX] {
+            let mut many = vec![6; 3 * CHUNK];
+            assert_eq!(first_outside(&many, 7), None);
+            many[2 * CHUNK + 5] = index;
+            many[2 * CHUNK + 9] = index;
+            assert_eq!(first_outside(&many, 7), Some(2 * CHUNK + 5));
+        }
+        assert_eq!(first_outside(&[i64::MAX], usize::MAX), None);
     }
 }

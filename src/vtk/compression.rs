@@ -3,6 +3,7 @@
 use super::error::ArrayError;
 use flate2::{Compression, Decompress, FlushDecompress, Status};
 use lzma_rust2::{CheckType, XzOptions, XzReader, XzWriter};
+use std::cell::RefCell;
 use std::io::{self, Read, Write};
 
 /// The memory one LZMA block may ask for where its head is not as usual, in KiB: the
@@ -54,6 +55,16 @@ impl Compressor {
         }
     }
 
+    /// Bytes of one block when writing: small enough to keep every thread busy, large enough
+    /// to compress well. A whole number of values of any type.
+    pub(super) fn block_size(self) -> usize {
+        match self {
+            // Below 64 KiB, the encoder's table has words of half the size.
+            Self::Lz4 => (1 << 16) - 8,
+            Self::Zlib | Self::Lzma => 1 << 18,
+        }
+    }
+
     /// Decompresses one block, which must fill `dest` exactly.
     pub(super) fn decompress(self, block: &[u8], dest: &mut [u8]) -> Result<(), String> {
         let filled = match self {
@@ -76,7 +87,7 @@ impl Compressor {
     pub(super) fn compress(self, bytes: &[u8]) -> io::Result<Vec<u8>> {
         match self {
             Self::Zlib => deflate(bytes),
-            Self::Lz4 => Ok(lz4_flex::block::compress(bytes)),
+            Self::Lz4 => Ok(lz4(bytes)),
             Self::Lzma => xz(bytes),
         }
     }
@@ -98,6 +109,22 @@ fn deflate(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), level);
     encoder.write_all(bytes)?;
     encoder.finish()
+}
+
+/// Compresses in one buffer a thread, and keeps of it what is used: what the encoder might
+/// need at worst would else be new memory for every block.
+fn lz4(bytes: &[u8]) -> Vec<u8> {
+    thread_local! {
+        static BUFFER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    }
+    BUFFER.with_borrow_mut(|buffer| {
+        let most = lz4_flex::block::get_maximum_output_size(bytes.len());
+        if buffer.len() < most {
+            buffer.resize(most, 0);
+        }
+        let used = lz4_flex::block::compress_into(bytes, buffer);
+        buffer.get(..used.unwrap_or(0)).unwrap_or_default().to_vec()
+    })
 }
 
 /// Returns how many bytes of `dest` were filled.

@@ -5,8 +5,8 @@
 //! meshio writes it, are refused), of 308 files that VTK 9.7 writes of one array each 154,
 //! of 32 that hold every type 4. NaN and infinity in ascii, `signed_char`, 64-bit integers,
 //! strings, the names of components and any `TimeValue` are refused, and its errors name
-//! neither a place nor a reason. This one reads them all as VTK does, with the decoders
-//! that the XML files use, in about as many lines as converting `vtkio`'s model would take.
+//! neither a place nor a reason: half of what VTK writes would be lost. This one reads them
+//! all as VTK does, with the decoders of numbers that the XML files use.
 //!
 //! What is decoded is first found ([`LegacyIndex`]), in one pass over the file: the format
 //! has no table of contents. A file that ends between two sections is whole, as far as

@@ -10,10 +10,6 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Bytes of one compressed block: small enough to keep every thread busy, large enough to
-/// compress well.
-const BLOCK: usize = 1 << 18;
-
 /// Values that are converted, or printed by one thread, at a time.
 const CHUNK: usize = 1 << 14;
 
@@ -247,12 +243,13 @@ fn ranges(len: usize, step: usize) -> impl IndexedParallelIterator<Item = std::o
 /// Compresses all blocks, on all threads.
 fn compress<'a>(column: &dyn Column, compressor: Compressor) -> io::Result<Stored<'a>> {
     let block = |range| compressor.compress(&column.bytes(range));
-    let blocks = ranges(column.len(), BLOCK / column.value_size()).map(block);
+    let size = compressor.block_size();
+    let blocks = ranges(column.len(), size / column.value_size()).map(block);
     let blocks = blocks.collect::<io::Result<Vec<Vec<u8>>>>()?;
     // A last size of 0 stands for a full block.
-    let last = byte_count(column) % BLOCK as u64;
+    let last = byte_count(column) % size as u64;
     let sizes = blocks.iter().map(|block| block.len() as u64);
-    let words = [blocks.len() as u64, BLOCK as u64, last].into_iter().chain(sizes);
+    let words = [blocks.len() as u64, size as u64, last].into_iter().chain(sizes);
     Ok(Stored::Compressed { header: words.flat_map(u64::to_le_bytes).collect(), blocks })
 }
 
@@ -351,9 +348,10 @@ mod tests {
                 Stored::Plain(_) => unreachable!(),
             }
         };
+        let block = Compressor::Lz4.block_size();
         let last = |size: u64| size.to_le_bytes().to_vec();
         assert_eq!(header(0), (last(0), 0));
-        assert_eq!(header(BLOCK), (last(0), 1));
-        assert_eq!(header(BLOCK + 5), (last(5), 2));
+        assert_eq!(header(block), (last(0), 1));
+        assert_eq!(header(block + 5), (last(5), 2));
     }
 }

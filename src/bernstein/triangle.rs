@@ -1,5 +1,7 @@
 //! Cubic polynomials on a triangle.
 
+use arrayvec::ArrayVec;
+
 use super::barycentric::Barycentric;
 use super::segment::SegmentCubic;
 
@@ -117,6 +119,33 @@ impl TriangleCubic {
     /// The edge opposite `vertex`, from vertex `vertex + 1` to vertex `vertex + 2`.
     pub fn edge(&self, vertex: usize) -> SegmentCubic {
         SegmentCubic::new(EDGES[vertex].map(|position| self.coefficients[position]))
+    }
+
+    /// The means of a layer of coefficients, as seen from vertex `apex`: on the ray
+    /// to the point `t` of the opposite edge, they are the Bernstein coefficients of
+    /// the cubic. Layer 0 is the apex, layer 3 the opposite edge; layer `n` is of
+    /// degree `n`, and here written as a cubic.
+    pub fn layer(&self, apex: usize, layer: usize) -> SegmentCubic {
+        let (start, end) = ((apex + 1) % 3, (apex + 2) % 3);
+        let coefficient = |n: usize| {
+            let mut exponents = [0; 3];
+            exponents[apex] = 3 - layer;
+            exponents[start] = layer - n;
+            exponents[end] = n;
+            self.coefficient(exponents)
+        };
+        // elevation, one degree at a time
+        let mut means: ArrayVec<f64, 4> = (0..=layer).map(coefficient).collect();
+        while means.len() < 4 {
+            let degree = means.len() as f64;
+            let mix = |n: usize| {
+                let before = if n > 0 { n as f64 * means[n - 1] } else { 0.0 };
+                let after = if n < means.len() { (degree - n as f64) * means[n] } else { 0.0 };
+                (before + after) / degree
+            };
+            means = (0..=means.len()).map(mix).collect();
+        }
+        SegmentCubic::new([means[0], means[1], means[2], means[3]])
     }
 
     /// The cubic on the straight line from `a` (t = 0) to `b` (t = 1).
@@ -256,6 +285,20 @@ mod tests {
         fn restriction_is_the_polynomial(p in cubics(), a in inside(), b in inside(), t in 0.0..1.0f64) {
             let at = super::super::between(&a, &b, t);
             prop_assert!((p.restrict(&a, &b).value(t) - p.value(&at)).abs() < 1e-14);
+        }
+
+        #[test]
+        fn layers_are_the_coefficients_on_a_ray(p in cubics(), t in 0.0..1.0f64) {
+            for apex in 0..3 {
+                let mut base = [0.0; 3];
+                base[(apex + 1) % 3] = 1.0 - t;
+                base[(apex + 2) % 3] = t;
+                let ray = p.restrict(&VERTICES[apex], &base);
+                for layer in 0..4 {
+                    let mean = p.layer(apex, layer).value(t);
+                    prop_assert!((mean - ray.coefficients[layer]).abs() < 1e-14);
+                }
+            }
         }
 
         #[test]

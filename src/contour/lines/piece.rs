@@ -74,6 +74,25 @@ impl Piece {
         }
     }
 
+    /// A ray from corner `apex`, itself on the level, that enters the apex's side:
+    /// one on which some layer of coefficients has a mean on that side. Nothing if
+    /// all rays leave that side at once.
+    pub fn ray_on_side_of(&self, apex: usize) -> Option<f64> {
+        (1..4).find_map(|layer| {
+            let means = self.cubic.layer(apex, layer);
+            let stations = means.critical_points().into_iter().chain([0.0, 1.0]);
+            let far = stations.max_by(|&a, &b| {
+                let signed = |t: f64| match self.signs[apex] {
+                    Sign::Above => means.value(t),
+                    Sign::Below => -means.value(t),
+                };
+                signed(a).total_cmp(&signed(b))
+            })?;
+            let value = means.value(far);
+            (value != 0.0 && Sign::of(value) == self.signs[apex]).then_some(far)
+        })
+    }
+
     /// The side on which an edge lies at `t`: its start's, changed by each
     /// crossing before `t`.
     fn side_at(&self, edge: usize, t: f64) -> Sign {

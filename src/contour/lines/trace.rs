@@ -1,5 +1,7 @@
 //! One cell at one level: from its cubic to the arcs of its contour.
 
+use std::collections::VecDeque;
+
 use arrayvec::ArrayVec;
 
 use super::arc::{Arc, Node};
@@ -12,7 +14,6 @@ use super::situation::{Division, Situation, situation};
 use super::start::{first_piece, flat_edges};
 use super::traces::Traces;
 use crate::bernstein::{Sign, TriangleCubic};
-use crate::contour::extreme::{Extreme, recursive_extreme};
 use crate::mesh::TriangleFrame;
 
 /// What all cells of a level share.
@@ -99,10 +100,12 @@ fn trace_pieces(
     first: Piece,
     traces: &mut Traces,
 ) {
-    let mut waiting = vec![first];
+    // the largest first: where no number of pieces is enough, only the smallest
+    // are left unresolved
+    let mut waiting = VecDeque::from([first]);
     let mut seen = 0;
     let mut touched = false;
-    while let Some(piece) = waiting.pop() {
+    while let Some(piece) = waiting.pop_front() {
         seen += 1;
         let corners = piece.corners.map(|corner| cell.frame.position(&corner));
         match situation(&piece, &corners) {
@@ -176,15 +179,8 @@ fn waypoint(
     (end, to): (Crossing, f64),
 ) -> Option<Node> {
     if start.owner == end.owner {
-        // a loop from the apex back to it, around where its side reaches farthest
-        let which = match piece.signs[apex] {
-            Sign::Above => Extreme::Maximum,
-            Sign::Below => Extreme::Minimum,
-        };
-        let top = recursive_extreme(&piece.cubic, which);
-        let (left, right) = (top.at[(apex + 1) % 3], top.at[(apex + 2) % 3]);
-        let is_there = top.value != 0.0 && Sign::of(top.value) == piece.signs[apex];
-        (is_there && left + right > 0.0).then(|| arc.on_ray(right / (left + right)))
+        // a loop from the apex back to it
+        piece.ray_on_side_of(apex).map(|ray| arc.on_ray(ray))
     } else if may_be_half_an_island(start.owner, end.owner) {
         // if both halves were straight, they would be the same line
         Some(arc.on_ray(0.5 * (from + to)))

@@ -9,7 +9,7 @@
 use nalgebra::Matrix3;
 
 use super::crossing::crossings;
-use super::piece::Piece;
+use super::piece::{Piece, settled};
 use crate::bernstein::{Barycentric, Sign, TriangleCubic, between};
 use crate::mesh::{TriangleFrame, Vector};
 
@@ -142,7 +142,7 @@ impl<'a> Arc<'a> {
         let apex = &self.corners[self.apex];
         let (start, end) = (&self.corners[(self.apex + 1) % 3], &self.corners[(self.apex + 2) % 3]);
         let base = between(start, end, ray);
-        let line = self.cubic.restrict(apex, &base);
+        let line = settled(&self.cubic.restrict(apex, &base));
         // between the arc's ends the base is on the other side than the apex
         let side = self.signs[self.apex];
         let t = crossings(&line, side, !side).first().copied().unwrap_or(1.0);

@@ -169,8 +169,7 @@ impl Cell<'_> {
 
     /// The crossings on a new line inside the cell.
     fn line(&mut self, from: &Corner, to: &Corner) -> EdgeCrossings {
-        let restricted = self.cubic.restrict(&from.at, &to.at);
-        let restricted = SegmentCubic::new(restricted.coefficients.map(without_noise));
+        let restricted = settled(&self.cubic.restrict(&from.at, &to.at));
         let found = crossings(&restricted, from.sign, to.sign);
         found
             .into_iter()
@@ -215,6 +214,11 @@ const NOISE: f64 = 16.0 * f64::EPSILON;
 /// be, and not a series of false crossings.
 fn without_noise(coefficient: f64) -> f64 {
     if coefficient.abs() <= NOISE { 0.0 } else { coefficient }
+}
+
+/// A cubic on a line without the errors of its coefficients.
+pub fn settled(cubic: &SegmentCubic) -> SegmentCubic {
+    SegmentCubic::new(cubic.coefficients.map(without_noise))
 }
 
 #[derive(Clone, Copy)]

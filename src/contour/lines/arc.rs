@@ -27,6 +27,10 @@ pub struct Arc<'a> {
     rounding: f64,
 }
 
+/// Barycentric coordinates of the base, in the piece, below which a point counts as
+/// the apex.
+const AT_APEX: f64 = 1e-12;
+
 /// A point of an arc.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
@@ -71,20 +75,20 @@ impl<'a> Arc<'a> {
         Node { at, position, ray, uphill }
     }
 
-    fn node_at(&self, at: Barycentric) -> Node {
-        self.node(at, self.frame.position(&at), self.ray(&at))
+    fn node_at(&self, at: Barycentric, ray: f64) -> Node {
+        self.node(at, self.frame.position(&at), ray)
     }
 
     fn gradient(&self, at: &Barycentric) -> Vector {
         self.frame.gradient(&self.cubic.barycentric_gradient(at))
     }
 
-    /// Where the ray through a point of the piece meets the base.
-    pub fn ray(&self, at: &Barycentric) -> f64 {
+    /// Where the ray through a point of the piece meets the base. The apex is on all
+    /// rays: for a point that rounding cannot tell from it there is none.
+    fn ray(&self, at: &Barycentric) -> Option<f64> {
         let inside = self.to_piece * Vector::from(*at);
         let (start, end) = (inside[(self.apex + 1) % 3], inside[(self.apex + 2) % 3]);
-        let ray = end / (start + end);
-        if ray.is_finite() { ray.clamp(0.0, 1.0) } else { 0.5 }
+        (start + end > AT_APEX).then(|| (end / (start + end)).clamp(0.0, 1.0))
     }
 
     /// How far a point is from the contour, to first order: value over slope.
@@ -100,9 +104,8 @@ impl<'a> Arc<'a> {
     pub fn land(&self, guess: &Vector, direction: &Vector, a: &Node, b: &Node) -> Node {
         let at = self.frame.barycentric(guess);
         self.on_line(&at, direction, a, b).unwrap_or_else(|| {
-            let middle = 0.5 * (a.ray + b.ray);
-            let ray = self.ray(&at);
-            self.on_ray(if is_between(ray, a, b) { ray } else { middle })
+            let ray = self.ray(&at).filter(|&ray| is_between(ray, a, b));
+            self.on_ray(ray.unwrap_or(0.5 * (a.ray + b.ray)))
         })
     }
 
@@ -115,9 +118,10 @@ impl<'a> Arc<'a> {
         line.roots()
             .crossings()
             .map(|t| (1.0 - t) * from + t * to)
-            .filter(|&step| is_between(self.ray(&point(step)), a, b))
-            .min_by(|p, q| p.abs().total_cmp(&q.abs()))
-            .map(|step| self.node_at(point(step)))
+            .filter_map(|step| Some((step, self.ray(&point(step))?)))
+            .filter(|&(_, ray)| is_between(ray, a, b))
+            .min_by(|p, q| p.0.abs().total_cmp(&q.0.abs()))
+            .map(|(step, ray)| self.node_at(point(step), ray))
     }
 
     /// The steps along a line at which it enters and leaves the piece.
@@ -146,7 +150,7 @@ impl<'a> Arc<'a> {
         // between the arc's ends the base is on the other side than the apex
         let side = self.signs[self.apex];
         let t = crossings(&line, side, !side).first().copied().unwrap_or(1.0);
-        Node { ray, ..self.node_at(between(apex, &base, t)) }
+        self.node_at(between(apex, &base, t), ray)
     }
 }
 

@@ -178,7 +178,7 @@ fn waypoint(
     (start, from): (Crossing, f64),
     (end, to): (Crossing, f64),
 ) -> Option<Node> {
-    if start.owner == end.owner {
+    if start.position == end.position {
         // a loop from the apex back to it
         piece.ray_on_side_of(apex).map(|ray| arc.on_ray(ray))
     } else if may_be_half_an_island(start.owner, end.owner) {

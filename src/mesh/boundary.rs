@@ -2,7 +2,7 @@
 
 use rayon::slice::ParallelSliceMut;
 
-use super::triangle_mesh::TriangleMesh;
+use super::simplex_mesh::TriangleMesh;
 
 /// The edges that belong to exactly one triangle, as pairs of points in the
 /// direction of that triangle, sorted by their points.

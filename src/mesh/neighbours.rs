@@ -1,6 +1,6 @@
 //! Which points share an edge.
 
-use super::triangle_mesh::TriangleMesh;
+use super::simplex_mesh::TriangleMesh;
 
 /// For each point of a mesh, the points joined to it by an edge, ascending.
 ///

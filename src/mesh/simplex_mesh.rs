@@ -1,0 +1,135 @@
+//! Points and the simplices between them: triangles or tetrahedra.
+
+use thiserror::Error;
+
+use super::Vector;
+use super::frame::TriangleFrame;
+
+/// Points in space and simplices of `CORNERS` corners each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimplexMesh<const CORNERS: usize> {
+    points: Vec<Vector>,
+    simplices: Vec<[u32; CORNERS]>,
+}
+
+/// Points in space and the triangles between them.
+pub type TriangleMesh = SimplexMesh<3>;
+
+/// Points in space and the tetrahedra between them.
+pub type TetrahedronMesh = SimplexMesh<4>;
+
+/// Why points and simplices do not make a mesh.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum MeshError {
+    /// A simplex names a point that does not exist.
+    #[error("simplex {simplex} uses point {point}, but there are only {points} points")]
+    PointOutOfRange {
+        /// The simplex's number, from 0.
+        simplex: usize,
+        /// The point it names.
+        point: u32,
+        /// How many points there are.
+        points: usize,
+    },
+}
+
+impl<const CORNERS: usize> SimplexMesh<CORNERS> {
+    /// A mesh of `points` and `simplices` (the indices of their corners).
+    ///
+    /// # Errors
+    /// [`MeshError::PointOutOfRange`] if a simplex names a point that is not there.
+    pub fn new(points: Vec<Vector>, simplices: Vec<[u32; CORNERS]>) -> Result<Self, MeshError> {
+        for (simplex, corners) in simplices.iter().enumerate() {
+            if let Some(&point) = corners.iter().find(|&&point| point as usize >= points.len()) {
+                return Err(MeshError::PointOutOfRange { simplex, point, points: points.len() });
+            }
+        }
+        Ok(Self { points, simplices })
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[Vector] {
+        &self.points
+    }
+
+    /// The simplices, as indices of their points.
+    pub fn simplices(&self) -> &[[u32; CORNERS]] {
+        &self.simplices
+    }
+
+    /// The corners of a simplex.
+    pub fn corners(&self, simplex: usize) -> [Vector; CORNERS] {
+        self.simplices[simplex].map(|point| self.points[point as usize])
+    }
+
+    /// The point of a simplex at the given barycentric coordinates.
+    pub fn position(&self, simplex: usize, at: &[f64; CORNERS]) -> Vector {
+        let corners = self.corners(simplex);
+        let mut position = corners[0] * at[0];
+        for (corner, weight) in corners.iter().zip(at).skip(1) {
+            position += corner * *weight;
+        }
+        position
+    }
+
+    /// The length of the diagonal of the simplices' bounding box; zero without
+    /// simplices. Points that no simplex uses, and those that are not finite, do not
+    /// count.
+    pub fn diagonal(&self) -> f64 {
+        let corners = self.simplices.iter().flatten().map(|&point| self.points[point as usize]);
+        let mut finite = corners.filter(|point| point.iter().all(|x| x.is_finite()));
+        let Some(first) = finite.next() else { return 0.0 };
+        let (low, high) =
+            finite.fold((first, first), |(low, high), point| (low.inf(&point), high.sup(&point)));
+        (high - low).norm()
+    }
+}
+
+impl TriangleMesh {
+    /// The triangles, as indices of their points.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.simplices
+    }
+
+    /// The frame of a triangle: its plane and its barycentric gradients.
+    pub fn frame(&self, triangle: usize) -> TriangleFrame {
+        TriangleFrame::new(self.corners(triangle))
+    }
+}
+
+impl TetrahedronMesh {
+    /// The tetrahedra, as indices of their points.
+    pub fn tetrahedra(&self) -> &[[u32; 4]] {
+        &self.simplices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_simplex_without_its_point_is_refused() {
+        let points = vec![Vector::zeros(); 3];
+        let error = TriangleMesh::new(points, vec![[0, 1, 2], [1, 2, 3]]).unwrap_err();
+        assert_eq!(error, MeshError::PointOutOfRange { simplex: 1, point: 3, points: 3 });
+    }
+
+    #[test]
+    fn position_and_diagonal() {
+        let mut points =
+            vec![Vector::zeros(), Vector::new(3.0, 0.0, 0.0), Vector::new(0.0, 4.0, 0.0)];
+        // no triangle uses this one
+        points.push(Vector::repeat(1e9));
+        let mesh = TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap();
+        assert_eq!(mesh.diagonal(), 5.0);
+        assert_eq!(mesh.position(0, &[0.0, 0.5, 0.5]), Vector::new(1.5, 2.0, 0.0));
+    }
+
+    #[test]
+    fn position_in_a_tetrahedron() {
+        let points = vec![Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        let mesh = TetrahedronMesh::new(points, vec![[0, 1, 2, 3]]).unwrap();
+        assert_eq!(mesh.position(0, &[0.0, 0.25, 0.25, 0.5]), Vector::new(0.25, 0.25, 0.5));
+    }
+}

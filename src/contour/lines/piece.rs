@@ -130,8 +130,9 @@ pub struct Cell<'a> {
 
 impl Cell<'_> {
     /// The piece divided in two, by a line from corner `edge` to the point `t` of
-    /// the edge opposite.
+    /// the edge opposite, or to one a little before it if that line lies on the contour.
     pub fn split_edge(&mut self, piece: &Piece, edge: usize, t: f64) -> [Piece; 2] {
+        let t = self.beside_contour(piece, edge, t);
         let (apex, start, end) = (edge, (edge + 1) % 3, (edge + 2) % 3);
         let middle = Corner { at: piece.on_edge(edge, t), sign: piece.side_at(edge, t) };
         let [apex, start, end] =
@@ -165,6 +166,23 @@ impl Cell<'_> {
         });
         let centre = [reversed(&inner[0]), reversed(&inner[1]), reversed(&inner[2])];
         [a, b, c, self.piece(middle, centre, piece)]
+    }
+
+    /// A point of an edge, at `t` or a little before, for which the line from the corner
+    /// opposite does not lie on the contour as a whole.
+    ///
+    /// Such a line would have no crossings, and hide the contour from both its sides.
+    fn beside_contour(&self, piece: &Piece, edge: usize, t: f64) -> f64 {
+        // of four lines through a corner at most three lie on the contour of a cubic
+        let candidates = [1.0, 0.9375, 0.875, 0.8125].map(|factor| factor * t);
+        let apex = &piece.corners[edge];
+        let hidden = |t: &f64| self.is_on_contour(apex, &piece.on_edge(edge, *t));
+        candidates.into_iter().find(|t| !hidden(t)).unwrap_or(t)
+    }
+
+    /// Whether a line lies on the contour as a whole.
+    fn is_on_contour(&self, from: &Barycentric, to: &Barycentric) -> bool {
+        settled(&self.cubic.restrict(from, to)).coefficients == [0.0; 4]
     }
 
     /// The crossings on a new line inside the cell.

@@ -6,7 +6,7 @@ use support::brute_force::{self, Components};
 use support::distance::{distance_to_lines, sampled};
 use support::meshes::{Random, grid, random_square};
 use support::problem4;
-use vtu2contour::bernstein::{TriangleCubic, between};
+use vtu2contour::bernstein::TriangleCubic;
 use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::lines::{ContourLines, Method, Resolution, contour_lines};
 use vtu2contour::field::Field;

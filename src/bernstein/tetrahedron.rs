@@ -211,8 +211,11 @@ fn contract<const FROM: usize, const TO: usize>(
     })
 }
 
+/// The sum of products, from the first to the last: a weight of zero then changes no
+/// bit, and a face has the same values in both tetrahedra if they name its vertices in
+/// the same order.
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+    ((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]) + a[3] * b[3]
 }
 
 #[cfg(test)]
@@ -253,7 +256,42 @@ mod tests {
         assert_eq!(cubic.coefficient([0, 1, 1, 1]), 14.0);
     }
 
+    /// The cubic of a tetrahedron that has the vertices of a face at other places, in
+    /// the same order, and other coefficients elsewhere.
+    fn beyond_the_face(p: &TetrahedronCubic, missing: usize) -> TetrahedronCubic {
+        // the face of all vertices but vertex 1 is opposite vertex `missing` there
+        let rank = |place: usize| if place < missing { place } else { place - 1 };
+        TetrahedronCubic::from_coefficients(|exponents| {
+            let mut here = [0; 4];
+            for place in (0..4).filter(|&place| place != missing) {
+                here[[0, 2, 3][rank(place)]] = exponents[place];
+            }
+            if exponents[missing] == 0 { p.coefficient(here) } else { 7.0 }
+        })
+    }
+
     proptest! {
+        /// Two tetrahedra that share a face compute the same bits on it.
+        #[test]
+        fn a_face_is_the_same_from_both_sides(
+            p in cubics(), missing in 0..4usize, a in 0.0..0.5f64, b in 0.0..0.5f64, t in 0.0..0.5f64,
+        ) {
+            let other = beyond_the_face(&p, missing);
+            let inside = |weights: [f64; 3], off: usize| {
+                let mut at = [0.0; 4];
+                for (place, weight) in (0..4).filter(|&place| place != off).zip(weights) {
+                    at[place] = weight;
+                }
+                at
+            };
+            let (from, to) = ([1.0 - a - b, a, b], [t, 0.5, 0.5 - t]);
+            prop_assert_eq!(p.value(&inside(from, 1)), other.value(&inside(from, missing)));
+            prop_assert_eq!(
+                p.restrict(&inside(from, 1), &inside(to, 1)),
+                other.restrict(&inside(from, missing), &inside(to, missing))
+            );
+        }
+
         #[test]
         fn value_is_the_definition(p in cubics(), at in inside()) {
             prop_assert!((p.value(&at) - definition(&p, &at)).abs() < 1e-14);

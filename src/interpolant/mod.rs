@@ -9,8 +9,8 @@ mod pci;
 pub use linear::Linear;
 pub use pci::{Equation, Pci, Predictor};
 
-use crate::bernstein::TriangleCubic;
-use crate::mesh::TriangleMesh;
+use crate::bernstein::{TetrahedronCubic, TriangleCubic};
+use crate::mesh::{TetrahedronMesh, TriangleMesh};
 
 /// One cubic a triangle, continuous from each triangle to the next.
 ///
@@ -22,4 +22,16 @@ pub trait TriangleCubics: Sync {
 
     /// The cubic on a triangle.
     fn cubic(&self, triangle: usize) -> TriangleCubic;
+}
+
+/// One cubic a tetrahedron, continuous from each tetrahedron to the next.
+///
+/// The contract that surfaces rely on: the ten coefficients of a face are the same
+/// numbers, to the last bit, in both tetrahedra that share it.
+pub trait TetrahedronCubics: Sync {
+    /// The tetrahedra.
+    fn mesh(&self) -> &TetrahedronMesh;
+
+    /// The cubic on a tetrahedron, its coefficients in the order of the mesh's corners.
+    fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic;
 }

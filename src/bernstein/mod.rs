@@ -23,6 +23,7 @@ mod roots;
 mod segment;
 mod sign;
 mod tetrahedron;
+mod tetrahedron_patch;
 mod triangle;
 
 pub use barycentric::{Barycentric, between};
@@ -30,4 +31,5 @@ pub use roots::{MAX_ROOTS, Root, RootKind, Roots};
 pub use segment::SegmentCubic;
 pub use sign::Sign;
 pub use tetrahedron::{Barycentric4, TetrahedronCubic};
+pub use tetrahedron_patch::PatchCertificate;
 pub use triangle::TriangleCubic;

@@ -31,7 +31,7 @@ const fn position([_, j, k, l]: Exponents) -> usize {
 
 /// The exponents of the coefficients of a polynomial of the given degree, in order
 /// of position; `COUNT` must be their number.
-const fn exponents<const COUNT: usize>(degree: usize) -> [Exponents; COUNT] {
+pub(super) const fn exponents<const COUNT: usize>(degree: usize) -> [Exponents; COUNT] {
     let mut all = [[0; 4]; COUNT];
     let mut j = 0;
     while j <= degree {
@@ -50,7 +50,7 @@ const fn exponents<const COUNT: usize>(degree: usize) -> [Exponents; COUNT] {
     all
 }
 
-const CUBIC: [Exponents; 20] = exponents(3);
+pub(super) const CUBIC: [Exponents; 20] = exponents(3);
 
 /// For each coefficient of a polynomial of one degree less, the positions of the
 /// four from which de Casteljau's algorithm makes it.

@@ -10,10 +10,12 @@
 //!    into polylines.
 
 mod extreme;
+mod extreme_in_tetrahedron;
 mod levels;
 pub mod lines;
 mod ranges;
 
 pub use extreme::{Extreme, recursive_extreme};
+pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 pub use levels::{LevelError, Levels};
 pub use ranges::CellRanges;

@@ -9,7 +9,8 @@
 use rayon::prelude::*;
 
 use super::extreme::{Extreme, recursive_extreme};
-use crate::interpolant::TriangleCubics;
+use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
+use crate::interpolant::{TetrahedronCubics, TriangleCubics};
 
 /// Certain bounds of the interpolant on each cell, computed once for all levels.
 #[derive(Clone, Debug)]
@@ -23,16 +24,20 @@ pub struct CellRanges {
 const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl CellRanges {
-    /// The ranges of all cells of `interpolant`.
+    /// The ranges of all triangles of `interpolant`.
     pub fn new(interpolant: &dyn TriangleCubics) -> Self {
-        let ranges: Vec<[f64; 2]> = (0..interpolant.mesh().triangles().len())
-            .into_par_iter()
-            .map(|cell| {
-                let cubic = interpolant.cubic(cell);
-                let usable = cubic.coefficients.iter().all(|c| c.is_finite());
-                if usable { cubic.bounds().into() } else { EMPTY }
-            })
-            .collect();
+        let cells = interpolant.mesh().triangles().len();
+        Self::of_bounds(cells, |cell| bounds(&interpolant.cubic(cell).coefficients))
+    }
+
+    /// The ranges of all tetrahedra of `interpolant`.
+    pub fn of_tetrahedra(interpolant: &dyn TetrahedronCubics) -> Self {
+        let cells = interpolant.mesh().tetrahedra().len();
+        Self::of_bounds(cells, |cell| bounds(&interpolant.cubic(cell).coefficients))
+    }
+
+    fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f64; 2] + Sync + Send) -> Self {
+        let ranges: Vec<[f64; 2]> = (0..cells).into_par_iter().map(bounds).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
         Self { ranges, unusable }
     }
@@ -83,25 +88,63 @@ impl CellRanges {
     /// Levels strictly between them have a contour, which is not so for levels
     /// between the extreme coefficients.
     pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
-        let low = self.attained_extreme(interpolant, Extreme::Minimum)?;
-        let high = self.attained_extreme(interpolant, Extreme::Maximum)?;
+        let at_vertices = |cell: usize, which: Extreme| {
+            let cubic = interpolant.cubic(cell);
+            let values = [0, 1, 2].map(|vertex| cubic.edge(vertex).coefficients[0]);
+            which.best(&values)
+        };
+        let search =
+            |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
+        self.attained_by(&at_vertices, &search)
+    }
+
+    /// The same as [`CellRanges::attained`], for tetrahedra.
+    pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
+        let at_vertices = |cell: usize, which: Extreme| {
+            let cubic = interpolant.cubic(cell);
+            let values = [0, 1, 2, 3].map(|n| cubic.edge([n, (n + 1) % 4]).coefficients[0]);
+            which.best(&values)
+        };
+        let search = |cell: usize, which: Extreme| {
+            recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
+        };
+        self.attained_by(&at_vertices, &search)
+    }
+
+    fn attained_by(&self, at_vertices: &Attained, search: &Attained) -> Option<[f64; 2]> {
+        let low = self.attained_extreme(Extreme::Minimum, at_vertices, search)?;
+        let high = self.attained_extreme(Extreme::Maximum, at_vertices, search)?;
         Some([low, high])
     }
 
-    fn attained_extreme(&self, interpolant: &dyn TriangleCubics, which: Extreme) -> Option<f64> {
-        let at_vertices = |cell: usize| {
-            let cubic = interpolant.cubic(cell);
-            let values = (0..3).map(|vertex| cubic.edge(vertex).coefficients[0]);
-            values.reduce(|a, b| which.better(a, b))
-        };
+    fn attained_extreme(
+        &self,
+        which: Extreme,
+        at_vertices: &Attained,
+        search: &Attained,
+    ) -> Option<f64> {
         let usable = || (0..self.ranges.len()).into_par_iter().filter(|&c| self.ranges[c] != EMPTY);
-        let start = usable().filter_map(at_vertices).reduce_with(|a, b| which.better(a, b))?;
+        let start =
+            usable().map(|cell| at_vertices(cell, which)).reduce_with(|a, b| which.better(a, b))?;
         let promising = usable().filter(|&cell| {
             let bound = which.of(self.ranges[cell]);
             which.better(bound, start) != start
         });
-        let searched =
-            promising.map(|cell| recursive_extreme(&interpolant.cubic(cell), which).value);
+        let searched = promising.map(|cell| search(cell, which));
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
     }
+}
+
+/// An extreme value of a cell.
+type Attained<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
+
+/// Least and greatest coefficient; empty if one is not finite.
+fn bounds(coefficients: &[f64]) -> [f64; 2] {
+    let (mut low, mut high, mut finite) = (f64::INFINITY, f64::NEG_INFINITY, true);
+    for &coefficient in coefficients {
+        low = low.min(coefficient);
+        high = high.max(coefficient);
+        finite &= coefficient.is_finite();
+    }
+    if finite { [low, high] } else { EMPTY }
 }

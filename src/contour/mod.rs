@@ -9,11 +9,13 @@
 //! 3. the curve through each piece, by one of four methods, and the arcs joined
 //!    into polylines.
 
+mod crossings;
 mod extreme;
 mod extreme_in_tetrahedron;
 mod levels;
 pub mod lines;
 mod ranges;
+mod rounding;
 
 pub use extreme::{Extreme, recursive_extreme};
 pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;

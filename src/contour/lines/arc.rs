@@ -8,9 +8,9 @@
 
 use nalgebra::Matrix3;
 
-use super::crossing::crossings;
 use super::piece::{Piece, settled};
 use crate::bernstein::{Barycentric, Sign, TriangleCubic, between};
+use crate::contour::crossings::crossings;
 use crate::mesh::{TriangleFrame, Vector};
 
 /// The arc of a contour through a simple piece.

@@ -10,7 +10,6 @@ mod intercept;
 mod line_builder;
 mod method;
 mod piece;
-mod rounding;
 mod situation;
 mod start;
 mod stitch;
@@ -25,9 +24,9 @@ pub use method::Method;
 use rayon::prelude::*;
 
 use crate::contour::CellRanges;
+use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TriangleCubics;
 use line_builder::add_level;
-use rounding::Rounding;
 use trace::{Tracing, trace};
 use traces::Traces;
 

@@ -2,8 +2,9 @@
 
 use arrayvec::ArrayVec;
 
-use super::crossing::{Crossing, MAX_CROSSINGS, Owner, crossings};
+use super::crossing::{Crossing, Owner};
 use crate::bernstein::{Barycentric, SegmentCubic, Sign, TriangleCubic, between};
+use crate::contour::crossings::{MAX_CROSSINGS, crossings};
 use crate::mesh::TriangleFrame;
 
 /// A crossing on the edge of a piece.

@@ -5,9 +5,10 @@
 //! is traced as any other piece: so a nodal line that runs into a boundary on
 //! which the solution is zero ends there, instead of turning along it.
 
-use super::crossing::{Crossing, Owner, crossings};
+use super::crossing::{Crossing, Owner};
 use super::piece::{Cell, EdgeCrossing, EdgeCrossings, Piece};
 use crate::bernstein::{Sign, TriangleCubic};
+use crate::contour::crossings::crossings;
 use crate::mesh::{TriangleFrame, Vector};
 
 const VERTICES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -9,11 +9,11 @@ use super::crossing::{Crossing, Owner};
 use super::curve::Resolution;
 use super::method::{Method, draw};
 use super::piece::{Cell, Piece};
-use super::rounding::Rounding;
 use super::situation::{Division, Situation, situation};
 use super::start::{first_piece, flat_edges};
 use super::traces::Traces;
 use crate::bernstein::{Sign, TriangleCubic};
+use crate::contour::rounding::Rounding;
 use crate::mesh::TriangleFrame;
 
 /// What all cells of a level share.

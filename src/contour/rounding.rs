@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::contour::CellRanges;
-use crate::mesh::TriangleMesh;
+use crate::mesh::SimplexMesh;
 
 /// How near to a level the coefficients around each mesh point count as on it.
 ///
@@ -29,11 +29,16 @@ const OF_SPREAD: f64 = 64.0 * f64::EPSILON;
 
 impl Rounding {
     /// The rounding at the points of the cells that are active at a level.
-    pub fn new(mesh: &TriangleMesh, ranges: &CellRanges, level: f64, cells: &[u32]) -> Self {
+    pub fn new<const CORNERS: usize>(
+        mesh: &SimplexMesh<CORNERS>,
+        ranges: &CellRanges,
+        level: f64,
+        cells: &[u32],
+    ) -> Self {
         let mut spreads = HashMap::with_capacity(2 * cells.len());
         for &cell in cells {
             let [low, high] = ranges.range(cell as usize);
-            for point in mesh.triangles()[cell as usize] {
+            for point in mesh.simplices()[cell as usize] {
                 let least = spreads.entry(point).or_insert(f64::INFINITY);
                 *least = least.min(high - low);
             }

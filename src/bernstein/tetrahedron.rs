@@ -129,6 +129,15 @@ impl TetrahedronCubic {
         self.coefficients[position(exponents)]
     }
 
+    /// The values at the four vertices, which are coefficients too.
+    pub fn vertices(&self) -> [f64; 4] {
+        [0, 1, 2, 3].map(|vertex| {
+            let mut exponents = [0; 4];
+            exponents[vertex] = 3;
+            self.coefficient(exponents)
+        })
+    }
+
     /// The value at `at`, by de Casteljau's algorithm.
     pub fn value(&self, at: &Barycentric4) -> f64 {
         dot(&self.slopes(at), at)
@@ -278,6 +287,7 @@ mod tests {
         let cubic = TetrahedronCubic::new(numbered.try_into().unwrap());
         assert_eq!(cubic.edge([0, 1]).coefficients, [0.0, 1.0, 4.0, 10.0]);
         assert_eq!(cubic.edge([3, 2]).coefficients, [19.0, 18.0, 17.0, 16.0]);
+        assert_eq!(cubic.vertices(), [0.0, 10.0, 16.0, 19.0]);
         let opposite = cubic.face([1, 2, 3]).coefficients;
         assert_eq!(opposite.to_vec(), (10..20).map(f64::from).collect::<Vec<_>>());
         assert_eq!(cubic.coefficient([0, 1, 1, 1]), 14.0);

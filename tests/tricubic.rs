@@ -10,7 +10,7 @@ use support::polynomial::Polynomial;
 use support::problems_3d::{FIFTH, Problem};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::bernstein::Barycentric4;
-use vtu2contour::field::Field;
+use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{
     DiscontinuousTricubic, Equation, Linear, Predictor, TetrahedronCubics, Tricubic,
 };
@@ -310,8 +310,17 @@ fn orders_of_accuracy() {
     let with_pde = observed(&|mesh, field| {
         error(&Tricubic::with_pde(mesh, field, &equation(&pde, &[])), &FIFTH)
     });
-    println!("orders: linear {linear:.2}, without PDE {plain:.2}, with PDE {with_pde:.2}");
+    let recovered = observed(&|mesh, field| {
+        let gradients = recover_gradients(mesh, field.values, RecoveryDegree::Three);
+        let field = Field { values: field.values, gradients: &gradients };
+        error(&Tricubic::with_pde(mesh, field, &equation(&pde, &[])), &FIFTH)
+    });
+    println!(
+        "orders: linear {linear:.2}, without PDE {plain:.2}, with PDE {with_pde:.2}, \
+         with PDE and recovered gradients {recovered:.2}"
+    );
     assert!((1.9..2.2).contains(&linear));
     assert!(plain > 2.9);
     assert!(with_pde > 3.85);
+    assert!(recovered > 2.9);
 }

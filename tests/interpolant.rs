@@ -3,6 +3,7 @@
 mod support;
 
 use support::meshes::{Random, grid, random_square};
+use support::order::order;
 use support::problem4;
 use vtu2contour::bernstein::Barycentric;
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
@@ -23,17 +24,6 @@ fn error(interpolant: &dyn TriangleCubics) -> f64 {
         }
     }
     errors.iter().sum::<f64>() / errors.len() as f64
-}
-
-/// The slope of a line through the points (ln h, ln error), by least squares.
-fn order(errors: &[(f64, f64)]) -> f64 {
-    let logs: Vec<(f64, f64)> = errors.iter().map(|(h, e)| (h.ln(), e.ln())).collect();
-    let n = logs.len() as f64;
-    let mean = |part: fn(&(f64, f64)) -> f64| logs.iter().map(part).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let covariance: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    let variance: f64 = logs.iter().map(|p| (p.0 - x).powi(2)).sum();
-    covariance / variance
 }
 
 const SIZES: [usize; 4] = [24, 32, 48, 64];

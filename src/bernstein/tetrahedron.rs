@@ -75,9 +75,36 @@ const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
 const TO_LINEAR: [[usize; 4]; 4] = parents(2);
 
 impl TetrahedronCubic {
+    /// The positions of the four coefficients amid a face, which no edge sees, by the
+    /// vertex opposite to the face.
+    pub const FACES: [usize; 4] = [
+        position([0, 1, 1, 1]),
+        position([1, 0, 1, 1]),
+        position([1, 1, 0, 1]),
+        position([1, 1, 1, 0]),
+    ];
+
     /// The cubic with the given coefficients, layer by layer from vertex 0.
     pub fn new(coefficients: [f64; 20]) -> Self {
         Self { coefficients }
+    }
+
+    /// The cubic with vertex coefficients `vertex[i]`, edge coefficients `toward(i, j)`
+    /// (the one near vertex `i` on its edge to vertex `j`), and for each vertex the
+    /// coefficient amid the face opposite to it.
+    pub fn assemble(
+        vertex: [f64; 4],
+        toward: impl Fn(usize, usize) -> f64,
+        face: [f64; 4],
+    ) -> Self {
+        Self::from_coefficients(|exponents| {
+            let with = |wanted: usize| exponents.iter().position(|&e| e == wanted);
+            match (with(3), with(2), with(1)) {
+                (Some(i), _, _) => vertex[i],
+                (_, Some(i), Some(j)) => toward(i, j),
+                _ => face[with(0).unwrap_or_default()],
+            }
+        })
     }
 
     /// The cubic with coefficients given by a function of their exponents.
@@ -100,6 +127,15 @@ impl TetrahedronCubic {
     pub fn coefficient(&self, exponents: Exponents) -> f64 {
         debug_assert_eq!(exponents.iter().sum::<usize>(), 3);
         self.coefficients[position(exponents)]
+    }
+
+    /// The values at the four vertices, which are coefficients too.
+    pub fn vertices(&self) -> [f64; 4] {
+        [0, 1, 2, 3].map(|vertex| {
+            let mut exponents = [0; 4];
+            exponents[vertex] = 3;
+            self.coefficient(exponents)
+        })
     }
 
     /// The value at `at`, by de Casteljau's algorithm.
@@ -251,6 +287,7 @@ mod tests {
         let cubic = TetrahedronCubic::new(numbered.try_into().unwrap());
         assert_eq!(cubic.edge([0, 1]).coefficients, [0.0, 1.0, 4.0, 10.0]);
         assert_eq!(cubic.edge([3, 2]).coefficients, [19.0, 18.0, 17.0, 16.0]);
+        assert_eq!(cubic.vertices(), [0.0, 10.0, 16.0, 19.0]);
         let opposite = cubic.face([1, 2, 3]).coefficients;
         assert_eq!(opposite.to_vec(), (10..20).map(f64::from).collect::<Vec<_>>());
         assert_eq!(cubic.coefficient([0, 1, 1, 1]), 14.0);
@@ -268,6 +305,22 @@ mod tests {
             }
             if exponents[missing] == 0 { p.coefficient(here) } else { 7.0 }
         })
+    }
+
+    #[test]
+    fn an_assembled_cubic_has_its_parts_in_place() {
+        let toward = |i: usize, j: usize| (10 * i + j) as f64;
+        let cubic = TetrahedronCubic::assemble([90.0, 91.0, 92.0, 93.0], toward, [80.0; 4]);
+        assert_eq!(cubic.coefficient([0, 0, 3, 0]), 92.0);
+        assert_eq!(cubic.coefficient([1, 0, 0, 2]), 30.0);
+        assert_eq!(cubic.coefficient([0, 2, 1, 0]), 12.0);
+        let faces = TetrahedronCubic::assemble([0.0; 4], |_, _| 0.0, [1.0, 2.0, 3.0, 4.0]);
+        for (opposite, position) in TetrahedronCubic::FACES.into_iter().enumerate() {
+            assert_eq!(faces.coefficients[position], 1.0 + opposite as f64);
+            let mut amid = [1; 4];
+            amid[opposite] = 0;
+            assert_eq!(faces.coefficient(amid), 1.0 + opposite as f64);
+        }
     }
 
     proptest! {

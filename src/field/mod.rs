@@ -3,6 +3,7 @@
 //! Gradients come from the solver, or are recovered from the values
 //! ([`recover_gradients`]) where the file has none.
 
+mod patch;
 mod recovery;
 
 pub use recovery::{RecoveryDegree, recover_gradients};

@@ -6,15 +6,17 @@
 //! polynomial of the fitted degree, on any mesh, the gradient is exact: also on
 //! the boundary, where the patch simply grows inwards.
 //!
-//! On a surface in space the fit is over the tangent plane at the point.
+//! On tetrahedra the fit is in space; on triangles, over the tangent plane at the
+//! point.
 //!
 //! Source: Z. Zhang, A. Naga, *A new finite element gradient recovery method:
 //! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213.
 
-use nalgebra::{Cholesky, SMatrix, SVector};
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use crate::mesh::{PointNeighbours, TriangleMesh, Vector, plane_axes};
+use super::patch::Patch;
+use crate::mesh::{PointNeighbours, SimplexMesh, Vector, plane_axes};
 
 /// The degree of the polynomials that are fitted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,33 +29,32 @@ pub enum RecoveryDegree {
     Three,
 }
 
-/// Rings of neighbours beyond which a patch does not grow.
-const MAX_RINGS: usize = 4;
-
-/// Points beyond which a patch does not grow: several times what a cubic needs.
-const MAX_POINTS: usize = 96;
-
-/// Gradients at the points of `mesh`, recovered from one value a point.
+/// Gradients at the points of triangles or tetrahedra, recovered from one value a
+/// point.
 ///
 /// Where even the largest patch does not determine the polynomial, its degree is
 /// lowered; a point with no usable neighbour gets the gradient zero, a point
 /// whose own value is not finite gets NaN.
-pub fn recover_gradients(
-    mesh: &TriangleMesh,
+pub fn recover_gradients<const CORNERS: usize>(
+    mesh: &SimplexMesh<CORNERS>,
     values: &[f64],
     degree: RecoveryDegree,
 ) -> Vec<Vector> {
+    const { assert!(CORNERS == 3 || CORNERS == 4, "triangles or tetrahedra") };
     let neighbours = PointNeighbours::new(mesh);
-    let normals = point_normals(mesh);
+    let normals = if CORNERS == 3 { point_normals(mesh) } else { Vec::new() };
     (0..mesh.points().len() as u32)
         .into_par_iter()
         .map_init(Patch::default, |patch, point| {
             if !values[point as usize].is_finite() {
                 return Vector::repeat(f64::NAN);
             }
+            let axes: ArrayVec<Vector, 3> = match normals.get(point as usize) {
+                Some(normal) => plane_axes(normal).into_iter().collect(),
+                None => [Vector::x(), Vector::y(), Vector::z()].into(),
+            };
             patch.start(point);
-            let tangents = plane_axes(&normals[point as usize]);
-            patch.gradient(mesh, &neighbours, values, &tangents, degree)
+            patch.gradient(mesh.points(), &neighbours, values, &axes, degree)
         })
         .collect()
 }
@@ -61,12 +62,12 @@ pub fn recover_gradients(
 /// Sums of the normals of the triangles around each point, weighted by area.
 /// Triangles are first turned to one side, so that mixed orientations do not
 /// cancel.
-fn point_normals(mesh: &TriangleMesh) -> Vec<Vector> {
+fn point_normals<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>) -> Vec<Vector> {
     let mut normals = vec![Vector::zeros(); mesh.points().len()];
-    for (triangle, corners) in mesh.triangles().iter().enumerate() {
-        let [a, b, c] = mesh.corners(triangle);
-        let normal = (b - a).cross(&(c - a));
-        for &point in corners {
+    for (triangle, points) in mesh.simplices().iter().enumerate() {
+        let corners = mesh.corners(triangle);
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+        for &point in points {
             let sum = &mut normals[point as usize];
             *sum += if sum.dot(&normal) < 0.0 { -normal } else { normal };
         }
@@ -74,118 +75,10 @@ fn point_normals(mesh: &TriangleMesh) -> Vec<Vector> {
     normals
 }
 
-/// The points around one point, ring by ring; kept between points so that its
-/// memory is used again.
-#[derive(Default)]
-struct Patch {
-    /// The point itself first, then its neighbours in order of distance in edges.
-    points: Vec<u32>,
-    /// Where the outermost ring begins.
-    ring: usize,
-}
-
-impl Patch {
-    fn start(&mut self, point: u32) {
-        self.points.clear();
-        self.points.push(point);
-        self.ring = 0;
-    }
-
-    /// Adds the next ring; false if there is none, or the patch is full.
-    fn grow(&mut self, neighbours: &PointNeighbours) -> bool {
-        let end = self.points.len();
-        for place in self.ring..end {
-            let around = neighbours.of(self.points[place]);
-            // of a great fan, points all around it
-            let step = around.len().div_ceil(MAX_POINTS).max(1);
-            for &point in around.iter().step_by(step) {
-                // patches are small: a search is faster than a set
-                if self.points.len() < MAX_POINTS && !self.points.contains(&point) {
-                    self.points.push(point);
-                }
-            }
-        }
-        self.ring = end;
-        self.points.len() > end
-    }
-
-    fn gradient(
-        &mut self,
-        mesh: &TriangleMesh,
-        neighbours: &PointNeighbours,
-        values: &[f64],
-        tangents: &[Vector; 2],
-        degree: RecoveryDegree,
-    ) -> Vector {
-        let terms = if degree == RecoveryDegree::Three { 9 } else { 5 };
-        for _ in 0..MAX_RINGS {
-            let grown = self.grow(neighbours);
-            // a fit with no value to spare only repeats the noise in the values
-            if self.points.len() > terms + 1 || !grown {
-                let slope = match degree {
-                    RecoveryDegree::Three => self.slope::<9>(mesh, values, tangents),
-                    RecoveryDegree::Two => self.slope::<5>(mesh, values, tangents),
-                };
-                if let Some([along, across]) = slope {
-                    return tangents[0] * along + tangents[1] * across;
-                }
-            }
-            if !grown {
-                break;
-            }
-        }
-        let lower = self.slope::<5>(mesh, values, tangents);
-        let slope = lower.or_else(|| self.slope::<2>(mesh, values, tangents));
-        let [along, across] = slope.unwrap_or_default();
-        tangents[0] * along + tangents[1] * across
-    }
-
-    /// The slope of the least-squares polynomial with `TERMS` terms beside the
-    /// constant, or nothing if the patch does not determine it.
-    fn slope<const TERMS: usize>(
-        &self,
-        mesh: &TriangleMesh,
-        values: &[f64],
-        tangents: &[Vector; 2],
-    ) -> Option<[f64; 2]> {
-        let (&centre, others) = self.points.split_first()?;
-        let origin = mesh.points()[centre as usize];
-        let offset = |point: u32| mesh.points()[point as usize] - origin;
-        let size = others.iter().map(|&point| offset(point).norm()).fold(0.0, f64::max);
-        let mut matrix = SMatrix::<f64, TERMS, TERMS>::zeros();
-        let mut right = SVector::<f64, TERMS>::zeros();
-        for &point in others.iter().filter(|&&point| values[point as usize].is_finite()) {
-            let offset = offset(point) / size;
-            let row = monomials::<TERMS>(tangents[0].dot(&offset), tangents[1].dot(&offset));
-            matrix.ger(1.0, &row, &row, 1.0);
-            right += row * (values[point as usize] - values[centre as usize]);
-        }
-        let factor = well_determined(Cholesky::new(matrix)?)?;
-        let solution = factor.solve(&right) / size;
-        Some([solution[0], solution[1]])
-    }
-}
-
-/// `s, t, s², s t, t², s³, …`: the first `TERMS` monomials after the constant.
-fn monomials<const TERMS: usize>(s: f64, t: f64) -> SVector<f64, TERMS> {
-    let all = [s, t, s * s, s * t, t * t, s * s * s, s * s * t, s * t * t, t * t * t];
-    SVector::from_fn(|term, _| all[term])
-}
-
-/// A pivot below this fraction of the largest means that the points of the patch
-/// (nearly) lie on a curve of the fitted degree.
-const SMALLEST_PIVOT: f64 = 1e-4;
-
-fn well_determined<const N: usize>(
-    factor: Cholesky<f64, nalgebra::Const<N>>,
-) -> Option<Cholesky<f64, nalgebra::Const<N>>> {
-    let pivots = factor.l_dirty().diagonal();
-    (pivots.min() > SMALLEST_PIVOT * pivots.max()).then_some(factor)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{TetrahedronMesh, TriangleMesh};
     use proptest::prelude::*;
 
     /// An n by n grid of the unit square, its points moved by up to a third of
@@ -210,8 +103,8 @@ mod tests {
         TriangleMesh::new(points, triangles).unwrap()
     }
 
-    fn check_exact(
-        mesh: &TriangleMesh,
+    fn check_exact<const CORNERS: usize>(
+        mesh: &SimplexMesh<CORNERS>,
         degree: RecoveryDegree,
         u: impl Fn(&Vector) -> f64,
         gradient: impl Fn(&Vector) -> Vector,
@@ -256,6 +149,14 @@ mod tests {
             let along = Vector::new(1.0, 0.0, tilt);
             check_exact(&mesh, RecoveryDegree::Two, |p| p.x, |_| along / along.norm_squared());
         }
+    }
+
+    #[test]
+    fn one_tetrahedron_gives_its_linear_slope() {
+        let points = vec![Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        let mesh = TetrahedronMesh::new(points, vec![[0, 1, 2, 3]]).unwrap();
+        let slope = Vector::new(3.0, -1.0, 0.5);
+        check_exact(&mesh, RecoveryDegree::Three, |p| slope.dot(p), |_| slope);
     }
 
     #[test]

@@ -1,13 +1,22 @@
-//! Interpolants: values, gradients and the PDE become one cubic a triangle.
+//! Interpolants: values, gradients and the PDE become one cubic a cell.
 //!
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
-//! coefficients, by the trait [`TriangleCubics`].
+//! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
+mod discontinuous;
+mod equation;
+mod face_equations;
+mod hermite;
+mod least_squares;
 mod linear;
 mod pci;
+mod tricubic;
 
+pub use discontinuous::DiscontinuousTricubic;
+pub use equation::{Equation, Predictor};
 pub use linear::Linear;
-pub use pci::{Equation, Pci, Predictor};
+pub use pci::Pci;
+pub use tricubic::Tricubic;
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::mesh::{TetrahedronMesh, TriangleMesh};

@@ -17,58 +17,11 @@
 use rayon::prelude::*;
 
 use super::TriangleCubics;
+use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
-use crate::mesh::{TriangleFrame, TriangleMesh};
-use crate::pde::{Batch, LANES, Pde, Sample};
-
-/// Where `g` takes `Û` and its gradient from (thesis, after eq. 1.10).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Predictor {
-    /// The linear interpolant of the vertex values: the thesis' choice.
-    Linear,
-    /// The cubic that reproduces quadratics: one order better, and all that is
-    /// left of the error in `g` on the thesis' fourth problem.
-    #[default]
-    Quadratic,
-}
-
-/// A PDE, with what its right-hand side is evaluated at.
-#[derive(Clone, Copy, Debug)]
-pub struct Equation<'a> {
-    /// The PDE.
-    pub pde: &'a Pde,
-    /// For each array of [`Pde::used_arrays`], one value a point of the mesh.
-    pub arrays: &'a [Vec<f64>],
-    /// Where `g` takes the solution from.
-    pub predictor: Predictor,
-}
-
-impl Equation<'_> {
-    /// Adds the sample at the centroid of a triangle.
-    fn push_sample(
-        &self,
-        batch: &mut Batch,
-        mesh: &TriangleMesh,
-        triangle: usize,
-        start: &TriangleCubic,
-    ) {
-        let frame = mesh.frame(triangle);
-        let predicted = match self.predictor {
-            Predictor::Linear => TriangleCubic::linear(vertex_values(start)),
-            Predictor::Quadratic => *start,
-        };
-        let points = mesh.triangles()[triangle].map(|point| point as usize);
-        let at_centroid = |array: &Vec<f64>| points.iter().map(|&p| array[p]).sum::<f64>() / 3.0;
-        let arrays: Vec<f64> = self.arrays.iter().map(at_centroid).collect();
-        batch.push(&Sample {
-            x: frame.position(&CENTROID).into(),
-            u: predicted.value(&CENTROID),
-            gradient: frame.gradient(&predicted.barycentric_gradient(&CENTROID)).into(),
-            arrays: &arrays,
-        });
-    }
-}
+use crate::mesh::TriangleMesh;
+use crate::pde::LANES;
 
 /// The pure cubic interpolant of a field on a mesh of triangles.
 #[derive(Clone, Debug)]
@@ -105,8 +58,9 @@ impl<'a> Pci<'a> {
 
     /// The interpolant that also satisfies a PDE at the centroid of each triangle.
     ///
-    /// It reproduces any cubic that solves the PDE. Where the collocation is
-    /// singular (see [`Pci::singular`]) the PDE is left out.
+    /// It reproduces any cubic that solves the PDE, if `g` does not depend on the
+    /// solution. Where the collocation is singular (see [`Pci::singular`]) the PDE is
+    /// left out.
     pub fn with_pde(mesh: &'a TriangleMesh, field: Field<'a>, equation: &Equation) -> Self {
         let triangles: Vec<usize> = (0..mesh.triangles().len()).collect();
         let collocated: Vec<(f64, bool)> = triangles
@@ -165,57 +119,54 @@ fn collocate(
     equation: &Equation,
     triangles: &[usize],
 ) -> Vec<(f64, bool)> {
-    let mut batch = equation.pde.batch();
+    let mut collocation = Collocation::new(equation);
     let starts: Vec<TriangleCubic> = triangles
         .iter()
         .map(|&triangle| {
             let start = quadratic_precision(mesh, field, triangle);
-            equation.push_sample(&mut batch, mesh, triangle, &start);
+            push_centroid(&mut collocation, mesh, triangle, &start, equation.predictor);
             start
         })
         .collect();
-    let (mut operators, mut right_hand_sides) = (Vec::new(), Vec::new());
-    equation.pde.operators(&batch, &mut operators);
-    equation.pde.right_hand_sides(&batch, &mut right_hand_sides);
+    let (operators, right_hand_sides) = collocation.evaluate();
     let given = operators.iter().zip(&right_hand_sides);
     let centres = triangles.iter().zip(&starts).zip(given).map(|((&triangle, start), (l, &g))| {
-        let correction = correction(start, &operator_weights(l, &mesh.frame(triangle)), g);
+        let frame = mesh.frame(triangle);
+        let correction = correction(start, &operator_weights(l, frame.barycentric_gradients()), g);
         let centre = start.coefficients[TriangleCubic::CENTRE] + correction.unwrap_or(0.0);
         (centre, correction.is_none())
     });
     centres.collect()
 }
 
+/// Adds the centroid of a triangle to the places where the PDE is to hold.
+fn push_centroid(
+    collocation: &mut Collocation,
+    mesh: &TriangleMesh,
+    triangle: usize,
+    start: &TriangleCubic,
+    predictor: Predictor,
+) {
+    let frame = mesh.frame(triangle);
+    let predicted = match predictor {
+        Predictor::Linear => TriangleCubic::linear(vertex_values(start)),
+        Predictor::Quadratic => *start,
+    };
+    collocation.push(&Place {
+        points: &mesh.triangles()[triangle],
+        at: &CENTROID,
+        position: frame.position(&CENTROID),
+        value: predicted.value(&CENTROID),
+        gradient: frame.gradient(&predicted.barycentric_gradient(&CENTROID)),
+    });
+}
+
 /// What to add to `b_111` for `L p = g`, unless that equation is singular.
 fn correction(start: &TriangleCubic, weights: &[[f64; 3]; 3], g: f64) -> Option<f64> {
     let factor = centre_factor(weights);
     let size: f64 = weights.iter().flatten().map(|weight| weight.abs()).sum();
-    let correction = (g - apply(weights, start)) / factor;
+    let correction = (g - apply(weights, &start.barycentric_hessian(&CENTROID))) / factor;
     (factor.abs() > SINGULAR * size && correction.is_finite()).then_some(correction)
-}
-
-/// The operator in barycentric coordinates: `L p = Σ wᵢⱼ ∂²p/∂λᵢ∂λⱼ` with
-/// `wᵢⱼ = ∇λᵢᵀ A ∇λⱼ`, where `A` holds the coefficients of
-/// `uxx, uyy, uzz, uxy, uxz, uyz`.
-fn operator_weights(operator: &[f64; 6], frame: &TriangleFrame) -> [[f64; 3]; 3] {
-    let [xx, yy, zz, xy, xz, yz] = *operator;
-    let (xy, xz, yz) = (0.5 * xy, 0.5 * xz, 0.5 * yz);
-    let matrix = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    let gradients = frame.barycentric_gradients();
-    let images = gradients.map(|gradient| matrix * gradient);
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradients[i].dot(&images[j])))
-}
-
-/// `L p` at the centroid.
-fn apply(weights: &[[f64; 3]; 3], cubic: &TriangleCubic) -> f64 {
-    let hessian = cubic.barycentric_hessian(&CENTROID);
-    let mut sum = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            sum += weights[i][j] * hessian[i][j];
-        }
-    }
-    sum
 }
 
 /// The factor of `b_111` in `L p(c)`. Its basis function is `6 λ₀ λ₁ λ₂`, whose

@@ -1,6 +1,6 @@
 //! Which points share an edge.
 
-use super::simplex_mesh::TriangleMesh;
+use super::simplex_mesh::SimplexMesh;
 
 /// For each point of a mesh, the points joined to it by an edge, ascending.
 ///
@@ -14,10 +14,11 @@ pub struct PointNeighbours {
 
 impl PointNeighbours {
     /// The neighbours of all points of `mesh`.
-    pub fn new(mesh: &TriangleMesh) -> Self {
+    pub fn new<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>) -> Self {
         let directed = || {
-            mesh.triangles().iter().flat_map(|&[a, b, c]| {
-                [(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)].into_iter().filter(|(p, q)| p != q)
+            mesh.simplices().iter().flat_map(|corners| {
+                let ends = corners.iter().flat_map(|&p| corners.iter().map(move |&q| (p, q)));
+                ends.filter(|(p, q)| p != q)
             })
         };
         let mut ends = vec![0_usize; mesh.points().len() + 1];
@@ -36,7 +37,7 @@ impl PointNeighbours {
         Self::without_repeats(&ends, &mut all)
     }
 
-    /// Each interior edge was met twice; keep one.
+    /// An edge was met once in each of its simplices; keep one.
     fn without_repeats(ends: &[usize], all: &mut [u32]) -> Self {
         let mut offsets = vec![0];
         let mut neighbours = Vec::with_capacity(all.len() / 2 + 1);
@@ -62,7 +63,7 @@ impl PointNeighbours {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Vector;
+    use super::super::{TetrahedronMesh, TriangleMesh, Vector};
     use super::*;
 
     #[test]
@@ -74,5 +75,15 @@ mod tests {
         assert_eq!(neighbours.of(1), [0, 2, 3]);
         assert_eq!(neighbours.of(3), [1, 2]);
         assert!(neighbours.of(4).is_empty());
+    }
+
+    #[test]
+    fn two_tetrahedra_by_hand() {
+        let points = vec![Vector::zeros(); 5];
+        let mesh = TetrahedronMesh::new(points, vec![[0, 1, 2, 3], [2, 1, 3, 4]]).unwrap();
+        let neighbours = PointNeighbours::new(&mesh);
+        assert_eq!(neighbours.of(0), [1, 2, 3]);
+        assert_eq!(neighbours.of(2), [0, 1, 3, 4]);
+        assert_eq!(neighbours.of(4), [1, 2, 3]);
     }
 }

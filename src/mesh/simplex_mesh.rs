@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::Vector;
 use super::frame::TriangleFrame;
+use super::tetrahedron_frame::TetrahedronFrame;
 
 /// Points in space and simplices of `CORNERS` corners each.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,6 +102,11 @@ impl TetrahedronMesh {
     /// The tetrahedra, as indices of their points.
     pub fn tetrahedra(&self) -> &[[u32; 4]] {
         &self.simplices
+    }
+
+    /// The frame of a tetrahedron: its barycentric gradients.
+    pub fn frame(&self, tetrahedron: usize) -> TetrahedronFrame {
+        TetrahedronFrame::new(self.corners(tetrahedron))
     }
 }
 

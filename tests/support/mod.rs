@@ -2,7 +2,13 @@
 #![allow(dead_code)] // each test binary uses a part
 
 pub mod brute_force;
+pub mod delaunay_3d;
 pub mod distance;
 pub mod meshes;
+pub mod order;
+pub mod polynomial;
 pub mod problem4;
+pub mod problems_3d;
+pub mod table_5_3;
 pub mod table_5_7;
+pub mod tetrahedra;

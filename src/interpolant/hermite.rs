@@ -1,0 +1,56 @@
+//! What values and gradients say of the cubic on a tetrahedron: 16 of its 20
+//! coefficients, and a first value for the other four.
+
+use crate::bernstein::TetrahedronCubic;
+use crate::field::Field;
+use crate::mesh::TetrahedronMesh;
+
+/// The cubic with the field's values and gradients at the vertices, and the given
+/// coefficients amid the faces opposite to them.
+pub(super) fn hermite(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    tetrahedron: usize,
+    faces: [f64; 4],
+) -> TetrahedronCubic {
+    let points = mesh.tetrahedra()[tetrahedron].map(|point| point as usize);
+    let values = points.map(|point| field.values[point]);
+    let corners = mesh.corners(tetrahedron);
+    let toward = |i: usize, j: usize| {
+        values[i] + field.gradients[points[i]].dot(&(corners[j] - corners[i])) / 3.0
+    };
+    TetrahedronCubic::assemble(values, toward, faces)
+}
+
+/// The cubic that reproduces quadratics: amid a face it has a quarter of the face's
+/// edge coefficients less a sixth of its vertex coefficients.
+pub(super) fn quadratic_precision(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    tetrahedron: usize,
+) -> TetrahedronCubic {
+    let mut cubic = hermite(mesh, field, tetrahedron, [0.0; 4]);
+    let vertex = cubic.vertices();
+    let faces = ascending_faces(&mesh.tetrahedra()[tetrahedron]);
+    for (position, [a, b, c]) in TetrahedronCubic::FACES.into_iter().zip(faces) {
+        let edge = |i: usize, j: usize| {
+            let [_, near, far, _] = cubic.edge([i, j]).coefficients;
+            near + far
+        };
+        let edges = edge(a, b) + edge(b, c) + edge(c, a);
+        let vertices = vertex[a] + vertex[b] + vertex[c];
+        cubic.coefficients[position] = edges / 4.0 - vertices / 6.0;
+    }
+    cubic
+}
+
+/// The corners of the face opposite each corner, in ascending order of their points:
+/// sums taken in this order have the same bits in both tetrahedra of a face.
+pub(super) fn ascending_faces(points: &[u32; 4]) -> [[usize; 3]; 4] {
+    let mut order = [0, 1, 2, 3];
+    order.sort_unstable_by_key(|&corner| points[corner]);
+    [0, 1, 2, 3].map(|opposite| {
+        let mut face = order.into_iter().filter(|&corner| corner != opposite);
+        [(); 3].map(|()| face.next().unwrap_or(opposite))
+    })
+}

@@ -16,6 +16,7 @@ mod levels;
 pub mod lines;
 mod ranges;
 mod rounding;
+pub mod surface;
 
 pub use extreme::{Extreme, recursive_extreme};
 pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each test binary uses a part
 
 pub mod brute_force;
+pub mod brute_force_3d;
 pub mod delaunay_3d;
 pub mod distance;
 pub mod meshes;

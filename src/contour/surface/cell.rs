@@ -1,0 +1,111 @@
+//! A tetrahedron at one level.
+
+use crate::bernstein::{Barycentric4, TetrahedronCubic};
+use crate::contour::rounding::Rounding;
+use crate::interpolant::TetrahedronCubics;
+use crate::mesh::Vector;
+
+/// A tetrahedron of the mesh with its cubic less the level.
+///
+/// Its corners stand in the order of their numbers. Whatever is computed on an edge or a
+/// face then has the same bits in all cells that share it, because a weight of zero
+/// leaves no trace in a sum; so neighbours agree without a table.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// The cell's number.
+    pub number: u32,
+    /// The numbers of its corners, ascending.
+    pub points: [u32; 4],
+    /// Where its corners are.
+    pub corners: [Vector; 4],
+    /// The places of its corners in the mesh's own order.
+    order: [usize; 4],
+    /// The cubic less the level; what rounding alone keeps from the level is zero.
+    pub cubic: TetrahedronCubic,
+    /// Whether the corners, in this order, are those of a right-handed tetrahedron.
+    pub right_handed: bool,
+}
+
+impl Cell {
+    /// A cell at a level; nothing for one of which two corners are the same point, which
+    /// its neighbours close up.
+    pub fn new(
+        interpolant: &dyn TetrahedronCubics,
+        rounding: &Rounding,
+        level: f64,
+        number: u32,
+    ) -> Option<Self> {
+        let points = interpolant.mesh().tetrahedra()[number as usize];
+        let mut order = [0, 1, 2, 3];
+        order.sort_by_key(|&place| points[place]);
+        let sorted = order.map(|place| points[place]);
+        if sorted.windows(2).any(|pair| pair[0] == pair[1]) {
+            return None;
+        }
+        let corners = interpolant.mesh().corners(number as usize);
+        let cubic = interpolant.cubic(number as usize);
+        let value = |place: usize| cubic.edge([place, (place + 1) % 4]).coefficients[0];
+        let near = order.map(|place| rounding.at(points[place], value(place)));
+        let above_level = TetrahedronCubic::from_coefficients(|exponents| {
+            let mut here = [0; 4];
+            for (place, exponent) in order.into_iter().zip(exponents) {
+                here[place] = exponent;
+            }
+            let difference = cubic.coefficient(here) - level;
+            // a coefficient of a face belongs to all its corners
+            let own = (0..4).filter(|&n| exponents[n] > 0).map(|n| near[n]);
+            if difference.abs() <= own.fold(0.0, f64::max) { 0.0 } else { difference }
+        });
+        let right_handed = is_right_handed(&corners) == is_even(&order);
+        let corners = order.map(|place| corners[place]);
+        Some(Self { number, points: sorted, corners, order, cubic: above_level, right_handed })
+    }
+
+    /// The point at the given weights.
+    pub fn position(&self, at: &Barycentric4) -> Vector {
+        let [a, b, c, d] = &self.corners;
+        ((a * at[0] + b * at[1]) + c * at[2]) + d * at[3]
+    }
+
+    /// Weights of the corners, in the mesh's own order.
+    pub fn in_mesh_order(&self, at: &Barycentric4) -> Barycentric4 {
+        let mut ordered = [0.0; 4];
+        for (place, weight) in self.order.into_iter().zip(at) {
+            ordered[place] = *weight;
+        }
+        ordered
+    }
+
+    /// Whether a face, named by the corner opposite, lies on the level as a whole.
+    pub fn is_flat(&self, face: usize) -> bool {
+        const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
+        self.cubic.face(FACES[face]).coefficients == [0.0; 10]
+    }
+}
+
+/// Whether four corners are those of a right-handed tetrahedron, exactly. Corners in one
+/// plane count as such: they are in the file's order, and that is right-handed.
+fn is_right_handed(corners: &[Vector; 4]) -> bool {
+    let [a, b, c, d] = corners.map(|p| robust::Coord3D { x: p.x, y: p.y, z: p.z });
+    robust::orient3d(a, b, c, d) <= 0.0
+}
+
+/// Whether a permutation is even.
+pub fn is_even(order: &[usize]) -> bool {
+    let pairs = (0..order.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    pairs.filter(|&(i, j)| order[i] > order[j]).count() % 2 == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn handedness() {
+        let corners = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        assert!(is_right_handed(&corners));
+        let [a, b, c, d] = corners;
+        assert!(!is_right_handed(&[b, a, c, d]));
+        assert!(is_even(&[0, 1, 2, 3]) && is_even(&[1, 2, 0, 3]) && !is_even(&[1, 0, 2, 3]));
+    }
+}

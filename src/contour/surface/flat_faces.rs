@@ -1,0 +1,109 @@
+//! Faces of the mesh that lie on the level as a whole.
+//!
+//! They are part of the surface, each once, whichever side is higher; except between two
+//! cells that lie on the level as a whole. Rays end on them, so patches may cover them
+//! too: what lies in a flat face is left out there and added here.
+
+use super::cell::Cell;
+use super::owner::Owner;
+use super::patch::PatchPoint;
+use super::tessellation::Tessellation;
+use crate::bernstein::Sign;
+
+/// A face on the level, seen from one of its cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct FlatFace {
+    /// The numbers of its corners, ascending.
+    points: [u32; 3],
+    /// Whether the whole cell lies on the level.
+    in_flat_cell: bool,
+    /// The cell, as a place among those that are active.
+    cell: u32,
+    /// The corner of the cell opposite.
+    opposite: usize,
+}
+
+/// Adds all faces that lie on the level; `sides` segments along each of their edges.
+pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellation) {
+    let mut faces: Vec<FlatFace> = Vec::new();
+    for (place, cell) in cells.iter().enumerate() {
+        let in_flat_cell = cell.cubic.coefficients == [0.0; 20];
+        for opposite in (0..4).filter(|&face| cell.is_flat(face)) {
+            let points = corners_of_face(opposite).map(|n| cell.points[n]);
+            faces.push(FlatFace { points, in_flat_cell, cell: place as u32, opposite });
+        }
+    }
+    faces.sort_unstable();
+    for face in faces.chunk_by(|a, b| a.points == b.points) {
+        // sorted, so a cell that is not flat comes first; a face of flat cells alone is drawn
+        // on the boundary only
+        if !face[0].in_flat_cell || face.len() == 1 {
+            add_face(&cells[face[0].cell as usize], &face[0], sides, tessellation);
+        }
+    }
+}
+
+/// Whether three points of a cell lie in one of its faces that is on the level.
+pub fn are_in_flat_face(cell: &Cell, points: [&PatchPoint; 3]) -> bool {
+    (0..4).any(|n| points.iter().all(|point| point.at[n] == 0.0) && cell.is_flat(n))
+}
+
+fn corners_of_face(opposite: usize) -> [usize; 3] {
+    [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][opposite]
+}
+
+fn add_face(cell: &Cell, face: &FlatFace, sides: u32, tessellation: &mut Tessellation) {
+    let corners = corners_of_face(face.opposite);
+    let first = tessellation.points.len() as u32;
+    for row in 0..=sides {
+        for place in 0..=row {
+            let weights =
+                [sides - row, row - place, place].map(|n| f64::from(n) / f64::from(sides));
+            tessellation.points.push(point(cell, corners, weights));
+            tessellation.point_cells.push(face.cell);
+        }
+    }
+    // right-handed with the opposite corner first: its side is behind the face
+    let even = face.opposite.is_multiple_of(2);
+    let opposite_is_behind = cell.right_handed == even;
+    let opposite_is_above = Sign::of(side_of_cell(cell, face.opposite)) == Sign::Above;
+    let turned = opposite_is_behind != opposite_is_above;
+    let at = |row: u32, place: u32| first + row * (row + 1) / 2 + place;
+    let mut add = |[a, b, c]: [u32; 3]| {
+        tessellation.triangles.push(if turned { [a, c, b] } else { [a, b, c] });
+    };
+    for row in 0..sides {
+        for place in 0..=row {
+            let (left, right) = (at(row + 1, place), at(row + 1, place + 1));
+            add([at(row, place), left, right]);
+            if place < row {
+                add([at(row, place), right, at(row, place + 1)]);
+            }
+        }
+    }
+}
+
+/// A value that tells on which side of the level a cell lies, next to one of its faces.
+fn side_of_cell(cell: &Cell, opposite: usize) -> f64 {
+    let mut beside = [0.3; 4];
+    beside[opposite] = 0.1;
+    cell.cubic.value(&beside)
+}
+
+fn point(cell: &Cell, corners: [usize; 3], weights: [f64; 3]) -> PatchPoint {
+    let mut at = [0.0; 4];
+    for (corner, weight) in corners.into_iter().zip(weights) {
+        at[corner] = weight;
+    }
+    let held: Vec<usize> = corners.into_iter().filter(|&corner| at[corner] != 0.0).collect();
+    let owner = match held[..] {
+        [only] => Owner::Vertex(cell.points[only]),
+        [low, high] => Owner::OnEdge {
+            low: cell.points[low],
+            high: cell.points[high],
+            weight: at[high].to_bits(),
+        },
+        _ => Owner::Patch,
+    };
+    PatchPoint { owner, at, position: cell.position(&at) }
+}

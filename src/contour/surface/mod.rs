@@ -1,0 +1,103 @@
+//! Iso-surfaces in tetrahedra.
+
+mod adaptive;
+mod cell;
+mod contour_surface;
+mod division;
+mod flat_faces;
+mod owner;
+mod patch;
+mod piece;
+mod settle;
+mod surface_builder;
+mod tessellation;
+mod uniform;
+
+pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
+
+use rayon::prelude::*;
+
+use crate::contour::CellRanges;
+use crate::contour::rounding::{self, Rounding};
+use crate::interpolant::TetrahedronCubics;
+use cell::Cell;
+use patch::Patch;
+use settle::settle;
+use surface_builder::add_level;
+use tessellation::Tessellation;
+
+/// How fine a surface is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fineness {
+    /// So many points on each side of a patch, two at least: the thesis' *nSide*.
+    PointsPerSide(u32),
+    /// No point of a triangle is farther from the surface than this, in the mesh's unit.
+    Tolerance(f64),
+}
+
+/// Pieces tessellated at a time by one thread.
+const CHUNK: usize = 64;
+
+/// The surfaces of `interpolant` at the given levels (finite, ascending).
+///
+/// Closed, up to the boundary of the mesh: every edge belongs to two triangles. Every
+/// component is found: cells are passed over only where the Bernstein coefficients
+/// exclude a surface, and pieces are drawn only with the A-patch certificate;
+/// [`SurfaceCounts::unresolved`] tells where that failed. All points lie on their level to
+/// rounding. The result does not depend on the number of threads.
+///
+/// `ranges` must be those of `interpolant`; they serve any number of calls.
+///
+/// Source: thesis, section 2.4.
+pub fn contour_surface(
+    interpolant: &dyn TetrahedronCubics,
+    ranges: &CellRanges,
+    levels: &[f64],
+    fineness: Fineness,
+) -> ContourSurface {
+    let mut surface = ContourSurface { levels: levels.to_vec(), ..Default::default() };
+    surface.counts.unusable = ranges.unusable();
+    for &level in levels {
+        let cells = cells_at(interpolant, ranges, level);
+        surface.counts.active += cells.len();
+        let settled = settle(&cells, interpolant.mesh().points().len() as u32);
+        surface.counts.divided += settled.divided;
+        surface.counts.unresolved += settled.unresolved;
+        let patches = tessellations(&cells, &settled.pieces, fineness);
+        surface.counts.coarse += patches.iter().map(|chunk| chunk.coarse).sum::<usize>();
+        let mut flat_faces = Tessellation::default();
+        let sides = match fineness {
+            Fineness::PointsPerSide(points) => points.max(2) - 1,
+            Fineness::Tolerance(_) => 1,
+        };
+        flat_faces::add_flat_faces(&cells, sides, &mut flat_faces);
+        add_level(&mut surface, &cells, &patches, &flat_faces);
+    }
+    surface
+}
+
+fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
+    let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
+    let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
+    let cell = |&number: &u32| Cell::new(interpolant, &rounding, level, number);
+    active.par_iter().filter_map(cell).collect()
+}
+
+fn tessellations(cells: &[Cell], pieces: &[piece::Piece], fineness: Fineness) -> Vec<Tessellation> {
+    let tessellated = pieces.par_chunks(CHUNK).map(|chunk| {
+        let mut tessellation = Tessellation::default();
+        for piece in chunk {
+            let patch = Patch { cell: &cells[piece.cell as usize], piece };
+            match fineness {
+                Fineness::PointsPerSide(points) => {
+                    uniform::tessellate(&patch, points.max(2), &mut tessellation);
+                }
+                Fineness::Tolerance(tolerance) => {
+                    adaptive::tessellate(&patch, tolerance, &mut tessellation);
+                }
+            }
+        }
+        tessellation
+    });
+    tessellated.collect()
+}

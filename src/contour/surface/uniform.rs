@@ -1,0 +1,77 @@
+//! Patches with a fixed number of points on each side: the thesis' *nSide*.
+
+use super::patch::{Patch, Ray};
+use super::tessellation::{Tessellation, corners};
+
+/// Adds the triangles of a patch with `points` points on each side, two at least
+/// (thesis, table 5.9): `(n - 1)²` triangles, or `2 (n - 1)²` of a four-sided patch.
+pub fn tessellate(patch: &Patch, points: u32, tessellation: &mut Tessellation) {
+    let sides = points - 1;
+    match corners(patch)[..] {
+        [a, b, c] => three_sided(patch, [a, b, c], sides, tessellation),
+        [a, b, c, d] => four_sided(patch, [a, b, c, d], sides, tessellation),
+        _ => {}
+    }
+}
+
+fn three_sided(patch: &Patch, corners: [Ray; 3], sides: u32, tessellation: &mut Tessellation) {
+    let [a, b, c] = corners;
+    let first = tessellation.points.len() as u32;
+    for row in 0..=sides {
+        for place in 0..=row {
+            let terms = [(sides - row, a), (row - place, b), (place, c)];
+            tessellation.add_point(patch, &mean(&terms, sides));
+        }
+    }
+    let at = |row: u32, place: u32| first + row * (row + 1) / 2 + place;
+    for row in 0..sides {
+        for place in 0..=row {
+            let upper = at(row, place);
+            let (left, right) = (at(row + 1, place), at(row + 1, place + 1));
+            tessellation.triangles.push([upper, left, right]);
+            if place < row {
+                tessellation.triangles.push([upper, right, at(row, place + 1)]);
+            }
+        }
+    }
+}
+
+fn four_sided(patch: &Patch, corners: [Ray; 4], sides: u32, tessellation: &mut Tessellation) {
+    let [a, b, c, d] = corners;
+    let first = tessellation.points.len() as u32;
+    for i in 0..=sides {
+        let back = sides - i;
+        for j in 0..=sides {
+            let left = sides - j;
+            let terms = [(back * left, a), (back * j, b), (i * j, c), (i * left, d)];
+            tessellation.add_point(patch, &mean(&terms, sides * sides));
+        }
+    }
+    let at = |i: u32, j: u32| first + i * (sides + 1) + j;
+    for i in 0..sides {
+        for j in 0..sides {
+            let around = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            add_quadrilateral(around, tessellation);
+        }
+    }
+}
+
+/// Adds a quadrilateral, cut by its shorter diagonal.
+pub fn add_quadrilateral([a, b, c, d]: [u32; 4], tessellation: &mut Tessellation) {
+    let position = |n: u32| tessellation.points[n as usize].position;
+    let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
+    if length(a, c) <= length(b, d) {
+        tessellation.triangles.extend([[a, b, c], [a, c, d]]);
+    } else {
+        tessellation.triangles.extend([[a, b, d], [b, c, d]]);
+    }
+}
+
+/// The weighted mean of rays. The weights are whole numbers with the sum `total`, so the
+/// mean has the same bits in whatever order or way it is reached.
+fn mean(terms: &[(u32, Ray)], total: u32) -> Ray {
+    [0, 1, 2, 3].map(|n| {
+        let sum: f64 = terms.iter().map(|(weight, ray)| f64::from(*weight) * ray[n]).sum();
+        sum / f64::from(total)
+    })
+}

@@ -54,6 +54,7 @@ pub mod filter;
 pub mod interpolant;
 pub mod mesh;
 pub mod pde;
+pub mod simplices;
 pub mod svg;
 pub mod vtk;
 

@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use anyhow::Result;
 use vtu2contour::contour::CellRanges;
-use vtu2contour::filter::{CellCounts, ContourOptions, FilterError, Interpolated, Solution};
+use vtu2contour::filter::{ContourOptions, FilterError, Interpolated, Solution};
+use vtu2contour::simplices::CellCounts;
 use vtu2contour::vtk::{Attributes, DataArray, Description, Selection, UnstructuredGrid, VtuFile};
 
 use super::arguments::InfoArguments;
@@ -134,8 +135,12 @@ fn plan(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Vec<String>
     if let (Some(first), Some(last)) = (levels.first(), levels.last()) {
         lines.push(format!("levels    {} by default, from {first:?} to {last:?}", levels.len()));
     }
-    if solution.triangles.skipped.total() > 0 {
-        lines.push(format!("left out  {}", solution.triangles.skipped));
+    if solution.left_out.total() > 0 {
+        lines.push(format!("left out  {}", solution.left_out));
+    }
+    let solids = solution.solids();
+    if solids.total() > 0 {
+        lines.push(format!("left out  {solids} (only two-dimensional cells are contoured)"));
     }
     if ranges.unusable() > 0 {
         lines.push(format!("left out  {} triangles with values not finite", ranges.unusable()));

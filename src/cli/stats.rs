@@ -33,7 +33,7 @@ struct Cells {
     touching: usize,
     /// Arcs not as fine as asked.
     coarse: usize,
-    /// Cells of types that are not contoured.
+    /// Cells that are not contoured.
     skipped: usize,
     /// Triangles with values that are not finite.
     not_finite: usize,
@@ -129,7 +129,7 @@ impl Stats {
                 unresolved: report.counts.unresolved,
                 touching: report.counts.touching,
                 coarse: report.counts.coarse,
-                skipped: report.skipped.total(),
+                skipped: report.left_out.total() + report.solids.total(),
                 not_finite: report.counts.unusable,
                 ghosts: report.ghosts,
                 singular_pde: report.singular,

@@ -1,13 +1,13 @@
 //! The contour filter: a grid with data in, contour lines with data out.
 
-use super::cell_type::CellCounts;
+use super::cells::Triangles;
 use super::error::FilterError;
 use super::line_output::LineOutput;
 use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
-use super::triangles::Triangles;
 use crate::contour::CellRanges;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
+use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -32,8 +32,10 @@ pub struct Report {
     pub gradient: Option<String>,
     /// How many triangles there were.
     pub triangles: usize,
-    /// Cells of two or three dimensions that could not be contoured.
-    pub skipped: CellCounts,
+    /// Cells of two or three dimensions that could not be split into simplices.
+    pub left_out: LeftOut,
+    /// Solids, which are not contoured yet.
+    pub solids: CellCounts,
     /// Cells of another process, which are not contoured.
     pub ghosts: usize,
     /// Triangles in which the PDE could not be used.
@@ -92,11 +94,13 @@ pub fn contour(
     }
     .poly_data();
     drop(cubics);
+    let solids = solution.solids();
     let report = Report {
         label: solution.chosen.label(),
         gradient: solution.gradients.array,
         triangles: solution.triangles.mesh.triangles().len(),
-        skipped: solution.triangles.skipped.clone(),
+        left_out: solution.left_out,
+        solids,
         ghosts,
         singular,
         range,
@@ -132,9 +136,10 @@ impl Report {
             format!("'{label}' is {low:?} everywhere: there is no level inside its range"),
         );
         let Counts { unusable, unresolved, .. } = self.counts;
+        warn(self.left_out.total() > 0, format!("left out: {}", self.left_out));
         warn(
-            self.skipped.total() > 0,
-            format!("left out: {} (only triangles and quads are contoured)", self.skipped),
+            self.solids.total() > 0,
+            format!("left out: {} (only two-dimensional cells are contoured)", self.solids),
         );
         warn(
             unusable > 0,

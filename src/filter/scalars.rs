@@ -1,9 +1,9 @@
 //! Which array to contour, and its gradient.
 
 use super::error::FilterError;
-use super::triangles::vectors;
 use crate::field::{RecoveryDegree, recover_gradients};
 use crate::mesh::{TriangleMesh, Vector};
+use crate::simplices::vectors;
 use crate::vtk::{ArrayType, AttributeKind, Attributes, DataArray, UnstructuredGrid};
 
 /// What to take of an array with several components.

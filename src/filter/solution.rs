@@ -1,13 +1,14 @@
 //! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
 
+use super::cells::{Cells, Tetrahedra, Triangles, is_ghost};
 use super::error::FilterError;
 use super::options::{ContourOptions, InterpolantKind};
 use super::scalars::{ChosenArray, Gradients};
-use super::triangles::{Triangles, is_ghost};
 use crate::contour::CellRanges;
 use crate::field::Field;
 use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
 use crate::pde::Pde;
+use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid is contoured.
@@ -16,8 +17,12 @@ pub struct Solution<'a> {
     pub grid: &'a UnstructuredGrid,
     /// The array.
     pub chosen: ChosenArray<'a>,
-    /// The triangles.
+    /// The two-dimensional cells.
     pub triangles: Triangles,
+    /// The solids, which are not contoured yet.
+    pub tetrahedra: Option<Tetrahedra>,
+    /// Cells that cannot be split into simplices.
+    pub left_out: LeftOut,
     /// One value a point.
     pub values: Vec<f64>,
     /// One gradient a point; none for the linear interpolant.
@@ -49,7 +54,11 @@ impl<'a> Solution<'a> {
     pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
         let equation = equation(grid, options)?;
-        let triangles = Triangles::of(grid)?;
+        let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
+        let cells = || grid.types.iter().copied().collect();
+        let Some(triangles) = triangles else {
+            return Err(FilterError::NoTriangles { cells: cells(), left_out });
+        };
         let values = chosen.values();
         let gradients = match options.interpolant {
             InterpolantKind::Linear => Gradients::none(),
@@ -58,7 +67,22 @@ impl<'a> Solution<'a> {
             }
         };
         let interpolant = options.interpolant;
-        Ok(Self { grid, chosen, triangles, values, gradients, interpolant, equation })
+        Ok(Self {
+            grid,
+            chosen,
+            triangles,
+            tetrahedra,
+            left_out,
+            values,
+            gradients,
+            interpolant,
+            equation,
+        })
+    }
+
+    /// The solids by type, which are not contoured yet.
+    pub fn solids(&self) -> CellCounts {
+        self.tetrahedra.as_ref().map(|part| part.cells(self.grid)).unwrap_or_default()
     }
 
     /// The interpolant of the solution.

@@ -66,13 +66,25 @@ proptest! {
     #[test]
     fn linear_cells_fit_together(seed: u64, n in 1..4_usize) {
         let random = &mut Random(seed);
-        check_cube(&Cells::cube(n, 0.15, true, random).renumbered(random));
+        check_cube(&Cells::cube(n, 0.15, &[12, 13, 14, 42], random).renumbered(random));
+    }
+
+    /// Hexahedra with nodes inside four faces, along one direction.
+    #[test]
+    fn hexahedra_of_24_nodes_fit_together(seed: u64, n in 1..3_usize) {
+        let random = &mut Random(seed);
+        let mut cells = Cells::cube(n, 0.15, &[12], random).quadratic(true);
+        for (cell_type, nodes) in &mut cells.cells {
+            *cell_type = 33;
+            nodes.truncate(24);
+        }
+        check_cube(&cells.renumbered(random));
     }
 
     #[test]
     fn quadratic_cells_fit_together(seed: u64, n in 1..3_usize, inner: bool) {
         let random = &mut Random(seed);
-        check_cube(&Cells::cube(n, 0.15, false, random).quadratic(inner).renumbered(random));
+        check_cube(&Cells::cube(n, 0.15, &[12, 13, 14], random).quadratic(inner).renumbered(random));
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::cells::Triangles;
 use super::error::FilterError;
+use super::gradients::GradientOrigin;
 use super::line_output::LineOutput;
 use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
 use crate::contour::CellRanges;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
-use crate::simplices::{CellCounts, LeftOut};
+use crate::simplices::{CellCounts, LeftOut, lagrange_grid};
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -28,8 +29,8 @@ pub enum Stage {
 pub struct Report {
     /// What was contoured, such as `u` or `|velocity|`.
     pub label: String,
-    /// The gradient's array; nothing if it was recovered.
-    pub gradient: Option<String>,
+    /// Where the gradient came from.
+    pub gradient: GradientOrigin,
     /// How many triangles there were.
     pub triangles: usize,
     /// Cells of two or three dimensions that could not be split into simplices.
@@ -73,6 +74,7 @@ pub fn contour(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Contoured, FilterError> {
     progress(Stage::Field);
+    let grid = &lagrange_grid(grid);
     let solution = Solution::new(grid, options)?;
     let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
     progress(Stage::Interpolant);
@@ -97,7 +99,7 @@ pub fn contour(
     let solids = solution.solids();
     let report = Report {
         label: solution.chosen.label(),
-        gradient: solution.gradients.array,
+        gradient: solution.gradients.origin,
         triangles: solution.triangles.mesh.triangles().len(),
         left_out: solution.left_out,
         solids,

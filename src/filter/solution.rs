@@ -1,9 +1,10 @@
 //! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
 
 use super::cells::{Cells, Tetrahedra, Triangles, is_ghost};
+use super::chosen_array::ChosenArray;
 use super::error::FilterError;
+use super::gradients::Gradients;
 use super::options::{ContourOptions, InterpolantKind};
-use super::scalars::{ChosenArray, Gradients};
 use crate::contour::CellRanges;
 use crate::field::Field;
 use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
@@ -46,7 +47,8 @@ pub struct Interpolated<'a> {
 }
 
 impl<'a> Solution<'a> {
-    /// Takes from a grid what the options name.
+    /// Takes from a grid what the options name. Bézier cells of order two have to be
+    /// Lagrange cells by now, see [`lagrange_grid`](crate::simplices::lagrange_grid).
     ///
     /// # Errors
     /// If an array is missing or does not fit, the PDE cannot be read, or the grid

@@ -183,7 +183,7 @@ fn cut_quad(
     };
     let folds = |[one, other]: [[u32; 3]; 2]| normal(one).dot(&normal(other)) < 0.0;
     let cuts = [[[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]];
-    let [first, second] = cuts;
-    triangles.extend(if folds(first) && !folds(second) { second } else { first });
+    let cut = cuts.into_iter().find(|&cut| !folds(cut)).ok_or(Reason::CrossingEdges)?;
+    triangles.extend(cut);
     Ok(())
 }

@@ -46,30 +46,48 @@ impl<'a> Splitter<'a> {
     ) -> Result<Lie, Reason> {
         let layout = Layout::new(self.grid.types[cell], points.len())?;
         let (flat, solid) = (triangles.len(), tetrahedra.len());
-        match layout.cut {
+        let result = match layout.cut {
             Cut::Nothing => return Ok(Lie::Apart),
-            Cut::Polygons(polygons) => self.polygons(polygons, points, triangles)?,
-            Cut::Strip => strip(points, triangles),
-            Cut::Polygon => {
-                let corners = points.iter().map(|&point| point as u32);
-                self.polygon.cut(corners, self.positions, triangles)?;
+            Cut::Solids(_) | Cut::Corners(_) | Cut::Polyhedron => {
+                self.solid(cell, &layout, points, tetrahedra)
+            }
+            cut => self.flat(cut, points, triangles),
+        };
+        let result = result.and_then(|()| {
+            if triangles.len() == flat && tetrahedra.len() == solid {
+                return Err(Reason::Collapsed);
+            }
+            let is_polyhedron = matches!(layout.cut, Cut::Polyhedron);
+            orient(&mut tetrahedra[solid..], self.positions, is_polyhedron)
+        });
+        result.inspect_err(|_| {
+            triangles.truncate(flat);
+            tetrahedra.truncate(solid);
+        })
+    }
+
+    fn flat(
+        &mut self,
+        cut: Cut,
+        points: &[i64],
+        triangles: &mut Vec<[u32; 3]>,
+    ) -> Result<(), Reason> {
+        match cut {
+            Cut::Polygons(polygons) => self.polygons(polygons, points, triangles),
+            Cut::Strip => {
+                strip(points, triangles);
+                Ok(())
             }
             Cut::QuadraticPolygon => {
                 let (corners, mids) = points.split_at(points.len() / 2);
                 let around = corners.iter().zip(mids).flat_map(|(&c, &m)| [c as u32, m as u32]);
-                self.polygon.cut(around, self.positions, triangles)?;
+                self.polygon.cut(around, self.positions, triangles)
             }
-            cut => {
-                self.solid(cell, cut, &layout, points, tetrahedra)
-                    .inspect_err(|_| tetrahedra.truncate(solid))?;
+            _ => {
+                let corners = points.iter().map(|&point| point as u32);
+                self.polygon.cut(corners, self.positions, triangles)
             }
         }
-        if triangles.len() == flat && tetrahedra.len() == solid {
-            return Err(Reason::Collapsed);
-        }
-        let is_polyhedron = matches!(layout.cut, Cut::Polyhedron);
-        orient(&mut tetrahedra[solid..], self.positions, is_polyhedron)
-            .inspect_err(|_| tetrahedra.truncate(solid))
     }
 
     /// The polygons of a two-dimensional cell; those that have collapsed are left
@@ -93,7 +111,6 @@ impl<'a> Splitter<'a> {
     fn solid(
         &mut self,
         cell: usize,
-        cut: Cut,
         layout: &Layout,
         points: &[i64],
         tetrahedra: &mut Vec<[u32; 4]>,
@@ -102,7 +119,7 @@ impl<'a> Splitter<'a> {
             let node = usize::from(node);
             Key::new(layout.rank(node), points[node] as u32)
         };
-        match cut {
+        match layout.cut {
             Cut::Solids(solids) => {
                 for faces in solids {
                     self.solid.clear();

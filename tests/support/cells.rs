@@ -46,8 +46,10 @@ const PYRAMID_FACES: [&[usize]; 5] =
 impl Cells {
     /// The unit cube in `n` by `n` by `n` boxes, inner points moved by `jitter` of a
     /// box at most. Columns of boxes are cut into wedges, or each box of a column is
-    /// a hexahedron or six pyramids or, with `polyhedra`, a polyhedron, at random.
-    pub fn cube(n: usize, jitter: f64, polyhedra: bool, random: &mut Random) -> Self {
+    /// a hexahedron, six pyramids or a polyhedron, whichever of the types 12, 13, 14
+    /// and 42 is among the `kinds`, at random.
+    pub fn cube(n: usize, jitter: f64, kinds: &[u8], random: &mut Random) -> Self {
+        let boxes: Vec<u8> = kinds.iter().copied().filter(|&kind| kind != 13).collect();
         let mut cells = Self::default();
         for place in 0..(n + 1).pow(3) {
             let index = [place % (n + 1), place / (n + 1) % (n + 1), place / (n + 1).pow(2)];
@@ -57,17 +59,17 @@ impl Cells {
         }
         let point = |x: usize, y: usize, z: usize| (x + (n + 1) * (y + (n + 1) * z)) as u32;
         for (x, y) in (0..n).flat_map(|x| (0..n).map(move |y| (x, y))) {
-            let wedges = random.uniform(0.0, 1.0) < 0.3;
+            let wedges = kinds.contains(&13) && random.uniform(0.0, 1.0) < 0.3;
             for z in 0..n {
                 let corner = |[a, b]: [usize; 2], c: usize| point(x + a, y + b, z + c);
                 let square = [[0, 0], [1, 0], [1, 1], [0, 1]];
                 let corners: Vec<u32> =
                     (0..8).map(|node| corner(square[node % 4], node / 4)).collect();
-                match random.uniform(0.0, 1.0) {
+                match boxes[random.uniform(0.0, boxes.len() as f64) as usize] {
                     _ if wedges => cells.push_wedges(&corners),
-                    kind if kind < 0.4 => cells.cells.push((12, corners)),
-                    kind if kind < 0.7 || !polyhedra => cells.push_pyramids(&corners),
-                    _ => cells.push_polyhedron(&corners),
+                    14 => cells.push_pyramids(&corners),
+                    42 => cells.push_polyhedron(&corners),
+                    kind => cells.cells.push((kind, corners)),
                 }
             }
         }

@@ -15,6 +15,7 @@
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
+//! | [`simplices`] | VTK's cells as triangles and tetrahedra |
 //! | [`mesh`] | points, triangles, frames, neighbours |
 //! | [`svg`] | pictures |
 //! | [`vtk`] | the VTK file formats |

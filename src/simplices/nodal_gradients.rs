@@ -24,8 +24,9 @@ struct Share {
 ///
 /// A point gets the mean over its cells, weighted by their size: a sliver's gradient
 /// is the least certain and hardly counts. On a surface the gradient is tangential.
-/// For a quadratic on cells with straight edges (and without nodes inside faces:
-/// with parallel ones) it is exact.
+/// It is exact for quadratics on cells with straight edges; those without nodes
+/// inside faces have to be affine images of the reference cell, unless they are
+/// triangles or tetrahedra anyway.
 ///
 /// Nothing at points without such cells, or where all of these are degenerate or
 /// have values that are not finite; nothing at all if there are no such cells.

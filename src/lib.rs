@@ -15,6 +15,7 @@
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
+//! | [`simplices`] | VTK's cells as triangles and tetrahedra |
 //! | [`mesh`] | points, triangles, frames, neighbours |
 //! | [`svg`] | pictures |
 //! | [`vtk`] | the VTK file formats |
@@ -54,6 +55,7 @@ pub mod filter;
 pub mod interpolant;
 pub mod mesh;
 pub mod pde;
+pub mod simplices;
 pub mod svg;
 pub mod vtk;
 

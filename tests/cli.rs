@@ -56,13 +56,18 @@ impl Bench {
 
 /// The unit square as 2 by 2 squares of two triangles.
 fn square() -> UnstructuredGrid {
+    let corners = [0_i64, 1, 3, 4];
+    let halves = corners.map(|n| [[n, n + 1, n + 4], [n, n + 4, n + 3]]);
+    let cells: Vec<(u8, &[i64])> = halves.iter().flatten().map(|half| (5, &half[..])).collect();
+    square_of(&cells)
+}
+
+/// Nine points of the unit square, row by row, and the given cells.
+fn square_of(cells: &[(u8, &[i64])]) -> UnstructuredGrid {
     let coordinates: Vec<f64> =
         (0..9).flat_map(|n| [f64::from(n % 3) / 2.0, f64::from(n / 3) / 2.0, 0.0]).collect();
     let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
-    for corner in [0_i64, 1, 3, 4] {
-        grid.push_cell(5, &[corner, corner + 1, corner + 4]);
-        grid.push_cell(5, &[corner, corner + 4, corner + 3]);
-    }
+    cells.iter().for_each(|(cell_type, points)| grid.push_cell(*cell_type, points));
     grid
 }
 
@@ -311,6 +316,69 @@ fn bad_input_is_one_clear_line() {
         assert!(first.starts_with("vtu2contour: error: "), "{said}");
         let lines = if expected.starts_with("--pde") || expected == "w" { 3 } else { 1 };
         assert_eq!(said.lines().count(), lines, "{said}");
+    }
+}
+
+/// Quadratic and Bézier cells are cut at their mid nodes, with gradients of their own.
+#[test]
+fn quadratic_cells_are_contoured_exactly() {
+    let bench = Bench::new();
+    let nodes: [i64; 9] = [0, 2, 8, 6, 1, 5, 7, 3, 4];
+    let square = |x: i64| f64::from(x as i32 * x as i32);
+    // of x^2 + y^2: values at the nodes, and Bézier's control values
+    let lagrange = |n: i64| square(n % 3) / 4.0 + square(n / 3) / 4.0;
+    let bezier = |n: i64| f64::from(u8::from(n % 3 == 2)) + f64::from(u8::from(n / 3 == 2));
+    let values: [(u8, &dyn Fn(i64) -> f64); 3] = [(28, &lagrange), (70, &lagrange), (77, &bezier)];
+    for (cell_type, value) in values {
+        let mut grid = square_of(&[(cell_type, &nodes)]);
+        grid.point_data.push(DataArray::new("u", 1, (0..9).map(value).collect::<Vec<f64>>()));
+        write_vtu(bench.path("in.vtu"), &grid, Default::default()).unwrap();
+        let info = bench.run(&["info", "in.vtu"]);
+        let info = String::from_utf8(info.stdout).unwrap();
+        assert!(info.contains("gradient  of the quadratic cells\n"), "{info}");
+        assert!(info.contains("cells     8 triangles"), "{info}");
+        bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "0.5", "--stats", "stats.json"]);
+        let stats = std::fs::read_to_string(bench.path("stats.json")).unwrap();
+        assert!(stats.contains("\"gradient_origin\": \"cells\""), "{stats}");
+        let lines = read_lines(&bench.path("out.vtp"));
+        let points = lines.points.to_f64().unwrap();
+        assert!(points.len() > 30);
+        for point in points.chunks_exact(3) {
+            let radius = point[0].hypot(point[1]);
+            assert!((radius - 0.5_f64.sqrt()).abs() < 1e-14, "{cell_type}: {radius}");
+        }
+    }
+}
+
+/// Points that no quadratic cell holds have recovered gradients, and what cannot be
+/// contoured is told.
+#[test]
+fn mixed_grids_are_contoured_as_far_as_they_can() {
+    let bench = Bench::new();
+    let cells: [(u8, &[i64]); 6] = [
+        (22, &[0, 2, 8, 1, 5, 4]),
+        (7, &[0, 4, 8, 7, 3]),
+        (5, &[3, 7, 6]),
+        (10, &[0, 1, 2, 3]),
+        (70, &[0; 16]),
+        (7, &[0, 8, 2, 6]),
+    ];
+    let mut grid = square_of(&cells);
+    let value = |n: i32| f64::from(n % 3) / 2.0 + f64::from(n / 3);
+    grid.point_data.push(DataArray::new("u", 1, (0..9).map(value).collect::<Vec<f64>>()));
+    write_vtu(bench.path("in.vtu"), &grid, Default::default()).unwrap();
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "--gradients", "-v", "0.4", "-v", "2.2"]);
+    for part in [
+        "left out: 1 polygons (whose edges cross), 1 Lagrange quads (of order above 2)\n",
+        "left out: 1 tetrahedra (only two-dimensional cells are contoured)\n",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let lines = read_lines(&bench.path("out.vtp"));
+    let gradients = lines.point_data.get("Gradients").unwrap().to_f64().unwrap();
+    assert!(!gradients.is_empty());
+    for gradient in gradients.chunks_exact(3) {
+        assert!((gradient[0] - 1.0).hypot(gradient[1] - 2.0) < 1e-12, "{gradient:?}");
     }
 }
 

@@ -97,7 +97,8 @@ pub struct ScalarArguments {
     pub component: Option<Component>,
 
     /// Point array with the gradient, or 'recover' to recover it from the values
-    /// [default: an array with a usual name, such as 'gradient' or 'grad_u', else recovered]
+    /// [default: an array with a usual name, such as 'gradient' or 'grad_u', else by the
+    /// shape functions of quadratic cells, else recovered]
     #[arg(short, long, value_name = "NAME")]
     pub gradient: Option<String>,
 }

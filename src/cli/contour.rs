@@ -144,14 +144,14 @@ fn tell(contoured: &Contoured, messages: &Messages) {
     for warning in &report.warnings {
         messages.warning(warning);
     }
-    let gradient = report.gradient.as_deref().map_or("recovered".to_owned(), |n| format!("'{n}'"));
     let closed = lines.lines.iter().filter(|line| line.closed).count();
     messages.detail(&format!(
-        "array '{}', gradient {gradient}, range {:?} to {:?}\n\
+        "array '{}', gradient {}, range {:?} to {:?}\n\
          {} triangles; {} active at {} levels, {} subdivided, {} unresolved\n\
          tolerance {:e}, spacing {:e}\n\
          {} lines ({closed} closed), {} points",
         report.label,
+        report.gradient,
         report.range[0],
         report.range[1],
         report.triangles,

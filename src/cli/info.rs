@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use anyhow::Result;
 use vtu2contour::contour::CellRanges;
-use vtu2contour::filter::{CellCounts, ContourOptions, FilterError, Interpolated, Solution};
+use vtu2contour::filter::{ContourOptions, FilterError, GradientOrigin, Interpolated, Solution};
+use vtu2contour::simplices::{CellCounts, lagrange_grid};
 use vtu2contour::vtk::{Attributes, DataArray, Description, Selection, UnstructuredGrid, VtuFile};
 
 use super::arguments::InfoArguments;
@@ -120,22 +121,31 @@ fn write_contour(
 
 /// What would be contoured, a line each.
 fn plan(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Vec<String>, FilterError> {
-    let solution = Solution::new(grid, options)?;
+    let grid = lagrange_grid(grid);
+    let solution = Solution::new(&grid, options)?;
     let Interpolated { cubics, .. } = solution.interpolant(options.predictor);
     let ranges = CellRanges::new(cubics.as_ref());
     let [low, high] = solution.range(&ranges, cubics.as_ref())?;
     let levels = options.levels.resolve([low, high])?;
+    let gradient = match &solution.gradients.origin {
+        GradientOrigin::Array(name) => name.clone(),
+        other => other.to_string(),
+    };
     let mut lines = vec![
         format!("array     {}", solution.chosen.label()),
-        format!("gradient  {}", solution.gradients.array.as_deref().unwrap_or("recovered")),
+        format!("gradient  {gradient}"),
         format!("cells     {} triangles", solution.triangles.mesh.triangles().len()),
         format!("range     {low:?} to {high:?}"),
     ];
     if let (Some(first), Some(last)) = (levels.first(), levels.last()) {
         lines.push(format!("levels    {} by default, from {first:?} to {last:?}", levels.len()));
     }
-    if solution.triangles.skipped.total() > 0 {
-        lines.push(format!("left out  {}", solution.triangles.skipped));
+    if solution.left_out.total() > 0 {
+        lines.push(format!("left out  {}", solution.left_out));
+    }
+    let solids = solution.solids();
+    if solids.total() > 0 {
+        lines.push(format!("left out  {solids} (only two-dimensional cells are contoured)"));
     }
     if ranges.unusable() > 0 {
         lines.push(format!("left out  {} triangles with values not finite", ranges.unusable()));

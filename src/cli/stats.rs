@@ -3,14 +3,16 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use vtu2contour::filter::{Contoured, Stage};
+use vtu2contour::filter::{Contoured, GradientOrigin, Stage};
 
 /// Counts and times of a contouring.
 #[derive(Debug, Serialize)]
 pub struct Stats {
     array: String,
-    /// The gradient's array; null if it was recovered.
+    /// The gradient's array; null if it came from elsewhere.
     gradient: Option<String>,
+    /// `array`, `cells`, `recovered` or `unused`.
+    gradient_origin: &'static str,
     range: [f64; 2],
     levels: Vec<f64>,
     tolerance: Option<f64>,
@@ -33,7 +35,7 @@ struct Cells {
     touching: usize,
     /// Arcs not as fine as asked.
     coarse: usize,
-    /// Cells of types that are not contoured.
+    /// Cells that are not contoured.
     skipped: usize,
     /// Triangles with values that are not finite.
     not_finite: usize,
@@ -114,10 +116,17 @@ impl Stats {
     /// The counts of a contouring.
     pub fn new(contoured: &Contoured) -> Self {
         let Contoured { poly_data, lines, report, .. } = contoured;
+        let (gradient, gradient_origin) = match &report.gradient {
+            GradientOrigin::Array(name) => (Some(name.clone()), "array"),
+            GradientOrigin::Cells => (None, "cells"),
+            GradientOrigin::Recovered => (None, "recovered"),
+            GradientOrigin::Unused => (None, "unused"),
+        };
         let limit = |value: f64| value.is_finite().then_some(value);
         Self {
             array: report.label.clone(),
-            gradient: report.gradient.clone(),
+            gradient,
+            gradient_origin,
             range: report.range,
             levels: lines.levels.clone(),
             tolerance: limit(report.resolution.tolerance),
@@ -129,7 +138,7 @@ impl Stats {
                 unresolved: report.counts.unresolved,
                 touching: report.counts.touching,
                 coarse: report.counts.coarse,
-                skipped: report.skipped.total(),
+                skipped: report.left_out.total() + report.solids.total(),
                 not_finite: report.counts.unusable,
                 ghosts: report.ghosts,
                 singular_pde: report.singular,

@@ -1,13 +1,14 @@
 //! The contour filter: a grid with data in, contour lines with data out.
 
-use super::cell_type::CellCounts;
+use super::cells::Triangles;
 use super::error::FilterError;
+use super::gradients::GradientOrigin;
 use super::line_output::LineOutput;
 use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
-use super::triangles::Triangles;
 use crate::contour::CellRanges;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
+use crate::simplices::{CellCounts, LeftOut, lagrange_grid};
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -28,12 +29,14 @@ pub enum Stage {
 pub struct Report {
     /// What was contoured, such as `u` or `|velocity|`.
     pub label: String,
-    /// The gradient's array; nothing if it was recovered.
-    pub gradient: Option<String>,
+    /// Where the gradient came from.
+    pub gradient: GradientOrigin,
     /// How many triangles there were.
     pub triangles: usize,
-    /// Cells of two or three dimensions that could not be contoured.
-    pub skipped: CellCounts,
+    /// Cells of two or three dimensions that could not be split into simplices.
+    pub left_out: LeftOut,
+    /// Solids, which are not contoured yet.
+    pub solids: CellCounts,
     /// Cells of another process, which are not contoured.
     pub ghosts: usize,
     /// Triangles in which the PDE could not be used.
@@ -71,6 +74,7 @@ pub fn contour(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Contoured, FilterError> {
     progress(Stage::Field);
+    let grid = &lagrange_grid(grid);
     let solution = Solution::new(grid, options)?;
     let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
     progress(Stage::Interpolant);
@@ -92,11 +96,13 @@ pub fn contour(
     }
     .poly_data();
     drop(cubics);
+    let solids = solution.solids();
     let report = Report {
         label: solution.chosen.label(),
-        gradient: solution.gradients.array,
+        gradient: solution.gradients.origin,
         triangles: solution.triangles.mesh.triangles().len(),
-        skipped: solution.triangles.skipped.clone(),
+        left_out: solution.left_out,
+        solids,
         ghosts,
         singular,
         range,
@@ -132,9 +138,10 @@ impl Report {
             format!("'{label}' is {low:?} everywhere: there is no level inside its range"),
         );
         let Counts { unusable, unresolved, .. } = self.counts;
+        warn(self.left_out.total() > 0, format!("left out: {}", self.left_out));
         warn(
-            self.skipped.total() > 0,
-            format!("left out: {} (only triangles and quads are contoured)", self.skipped),
+            self.solids.total() > 0,
+            format!("left out: {} (only two-dimensional cells are contoured)", self.solids),
         );
         warn(
             unusable > 0,

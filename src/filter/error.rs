@@ -2,10 +2,10 @@
 
 use thiserror::Error;
 
-use super::cell_type::CellCounts;
 use crate::contour::LevelError;
 use crate::mesh::MeshError;
 use crate::pde::PdeError;
+use crate::simplices::{CellCounts, LeftOut, SplitError};
 
 /// Why a grid cannot be contoured: one line that says what to do.
 #[derive(Clone, Debug, Error)]
@@ -51,14 +51,14 @@ pub enum FilterError {
     #[error("no triangle holds a finite value of '{name}': there is nothing to contour")]
     NoValues { name: String },
 
-    #[error("nothing to contour: the grid has {cells}, and only triangles and quads are contoured")]
-    NoTriangles { cells: CellCounts },
+    #[error(
+        "nothing to contour: the grid has {cells}, and only two-dimensional cells are contoured{}",
+        if left_out.total() == 0 { String::new() } else { format!("; left out: {left_out}") }
+    )]
+    NoTriangles { cells: CellCounts, left_out: LeftOut },
 
-    #[error("the points do not have three coordinates each")]
-    Points,
-
-    #[error("the grid has more than 4294967295 points or cells")]
-    TooLarge,
+    #[error(transparent)]
+    Split(#[from] SplitError),
 
     #[error("--pde: {0}")]
     Pde(#[from] PdeError),

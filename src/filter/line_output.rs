@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::chosen_array::ChosenArray;
 use super::resample::{Stencil, interpolate, pick};
-use super::scalars::ChosenArray;
 use crate::contour::lines::{ContourLines, LinePoint};
 use crate::interpolant::TriangleCubics;
 use crate::mesh::Vector;

@@ -1,8 +1,9 @@
 //! What to contour, and how.
 
+use super::chosen_array::Component;
 use super::error::FilterError;
+use super::gradients::GradientSource;
 use super::line_output::OutputOptions;
-use super::scalars::{Component, GradientSource};
 use crate::contour::Levels;
 use crate::contour::lines::{Method, Resolution};
 use crate::interpolant::Predictor;

@@ -1,13 +1,15 @@
 //! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
 
+use super::cells::{Cells, Tetrahedra, Triangles, is_ghost};
+use super::chosen_array::ChosenArray;
 use super::error::FilterError;
+use super::gradients::Gradients;
 use super::options::{ContourOptions, InterpolantKind};
-use super::scalars::{ChosenArray, Gradients};
-use super::triangles::{Triangles, is_ghost};
 use crate::contour::CellRanges;
 use crate::field::Field;
 use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
 use crate::pde::Pde;
+use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid is contoured.
@@ -16,8 +18,12 @@ pub struct Solution<'a> {
     pub grid: &'a UnstructuredGrid,
     /// The array.
     pub chosen: ChosenArray<'a>,
-    /// The triangles.
+    /// The two-dimensional cells.
     pub triangles: Triangles,
+    /// The solids, which are not contoured yet.
+    pub tetrahedra: Option<Tetrahedra>,
+    /// Cells that cannot be split into simplices.
+    pub left_out: LeftOut,
     /// One value a point.
     pub values: Vec<f64>,
     /// One gradient a point; none for the linear interpolant.
@@ -41,7 +47,8 @@ pub struct Interpolated<'a> {
 }
 
 impl<'a> Solution<'a> {
-    /// Takes from a grid what the options name.
+    /// Takes from a grid what the options name. Bézier cells of order two have to be
+    /// Lagrange cells by now, see [`lagrange_grid`](crate::simplices::lagrange_grid).
     ///
     /// # Errors
     /// If an array is missing or does not fit, the PDE cannot be read, or the grid
@@ -49,7 +56,11 @@ impl<'a> Solution<'a> {
     pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
         let equation = equation(grid, options)?;
-        let triangles = Triangles::of(grid)?;
+        let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
+        let cells = || grid.types.iter().copied().collect();
+        let Some(triangles) = triangles else {
+            return Err(FilterError::NoTriangles { cells: cells(), left_out });
+        };
         let values = chosen.values();
         let gradients = match options.interpolant {
             InterpolantKind::Linear => Gradients::none(),
@@ -58,7 +69,22 @@ impl<'a> Solution<'a> {
             }
         };
         let interpolant = options.interpolant;
-        Ok(Self { grid, chosen, triangles, values, gradients, interpolant, equation })
+        Ok(Self {
+            grid,
+            chosen,
+            triangles,
+            tetrahedra,
+            left_out,
+            values,
+            gradients,
+            interpolant,
+            equation,
+        })
+    }
+
+    /// The solids by type, which are not contoured yet.
+    pub fn solids(&self) -> CellCounts {
+        self.tetrahedra.as_ref().map(|part| part.cells(self.grid)).unwrap_or_default()
     }
 
     /// The interpolant of the solution.

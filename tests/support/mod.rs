@@ -3,6 +3,7 @@
 
 pub mod brute_force;
 pub mod brute_force_3d;
+pub mod cells;
 pub mod delaunay_3d;
 pub mod distance;
 pub mod meshes;

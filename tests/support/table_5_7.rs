@@ -13,7 +13,7 @@ use std::path::Path;
 use vtu2contour::contour::lines::{ContourLines, Method, Resolution, contour_lines};
 use vtu2contour::contour::{CellRanges, Levels};
 use vtu2contour::field::Field;
-use vtu2contour::filter::Triangles;
+use vtu2contour::filter::Cells;
 use vtu2contour::interpolant::{Equation, Pci, Predictor, TriangleCubics};
 use vtu2contour::mesh::TriangleMesh;
 use vtu2contour::pde::Pde;
@@ -80,7 +80,8 @@ fn mesh(points: usize) -> TriangleMesh {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let file = VtuFile::open(folder.join(format!("problem4_{points}.vtu")));
     let grid = file.and_then(|file| file.read(&Selection::none())).expect("the mesh is there").data;
-    Triangles::of(&grid).expect("the mesh has triangles").mesh
+    let cells = Cells::new(&grid).expect("the mesh is one");
+    cells.triangles.expect("the mesh has triangles").mesh
 }
 
 fn contour(mesh: &TriangleMesh, predictor: Predictor, method: Method) -> ContourLines {

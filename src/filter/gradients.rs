@@ -1,25 +1,20 @@
-//! Which array to contour, and its gradient.
+//! The gradient of the array that is contoured.
 
+use std::fmt;
+
+use super::chosen_array::{ChosenArray, Component, named};
 use super::error::FilterError;
-use super::triangles::vectors;
 use crate::field::{RecoveryDegree, recover_gradients};
 use crate::mesh::{TriangleMesh, Vector};
-use crate::vtk::{ArrayType, AttributeKind, Attributes, DataArray, UnstructuredGrid};
-
-/// What to take of an array with several components.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Component {
-    /// One component, from 0.
-    Number(usize),
-    /// The length of the vector.
-    Magnitude,
-}
+use crate::simplices::{nodal_gradients, vectors};
+use crate::vtk::{DataArray, UnstructuredGrid};
 
 /// Where the gradient comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum GradientSource {
     /// An array with a conventional name if there is one that fits the values;
-    /// else recovered.
+    /// else, where there are quadratic cells, by their shape functions; else
+    /// recovered.
     #[default]
     Automatic,
     /// This array.
@@ -28,108 +23,28 @@ pub enum GradientSource {
     Recovered,
 }
 
-/// The array that is contoured.
-#[derive(Clone, Copy, Debug)]
-pub struct ChosenArray<'a> {
-    /// The array.
-    pub array: &'a DataArray,
-    /// What of it, if it has several components.
-    pub component: Option<Component>,
+/// Where gradients came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GradientOrigin {
+    /// An array.
+    Array(String),
+    /// The shape functions of quadratic cells.
+    Cells,
+    /// Recovery from the values.
+    Recovered,
+    /// Nowhere: the interpolant needs none.
+    Unused,
 }
 
-impl<'a> ChosenArray<'a> {
-    /// Chooses the array: by its name; else the active scalars; else the only
-    /// array of one component.
-    ///
-    /// # Errors
-    /// If there is no such array, or more than one that could be meant, or the
-    /// component does not fit; the message lists what there is.
-    pub fn new(
-        grid: &'a UnstructuredGrid,
-        name: Option<&str>,
-        component: Option<Component>,
-    ) -> Result<Self, FilterError> {
-        let array = match name {
-            Some(name) => named(grid, name)?,
-            None => default_array(grid)?,
-        };
-        let chosen = Self { array, component };
-        chosen.check()?;
-        Ok(chosen)
-    }
-
-    fn check(&self) -> Result<(), FilterError> {
-        let name = self.array.name.clone();
-        let components = self.array.components;
-        match self.component {
-            _ if self.array.array_type() == ArrayType::String => {
-                Err(FilterError::NotNumbers { name })
-            }
-            None if components > 1 => Err(FilterError::NoComponent { name, components }),
-            Some(Component::Number(component)) if component >= components => {
-                Err(FilterError::NoSuchComponent { name, component, components })
-            }
-            _ => Ok(()),
+impl fmt::Display for GradientOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Array(name) => write!(f, "'{name}'"),
+            Self::Cells => f.write_str("of the quadratic cells"),
+            Self::Recovered => f.write_str("recovered"),
+            Self::Unused => f.write_str("not used"),
         }
     }
-
-    /// One value a point.
-    pub fn values(&self) -> Vec<f64> {
-        let values = match self.component {
-            Some(Component::Magnitude) => self.array.magnitude(),
-            Some(Component::Number(component)) => self.array.component(component),
-            None => self.array.component(0),
-        };
-        values.unwrap_or_default()
-    }
-
-    /// What is contoured, for people: `velocity`, `velocity[1]`, `|velocity|`.
-    pub fn label(&self) -> String {
-        let name = &self.array.name;
-        match self.component {
-            Some(Component::Number(component)) if self.array.components > 1 => {
-                format!("{name}[{component}]")
-            }
-            Some(Component::Magnitude) => format!("|{name}|"),
-            _ => name.clone(),
-        }
-    }
-}
-
-fn named<'a>(grid: &'a UnstructuredGrid, name: &str) -> Result<&'a DataArray, FilterError> {
-    if let Some(array) = grid.point_data.get(name) {
-        return Ok(array);
-    }
-    if grid.cell_data.get(name).is_some() {
-        return Err(FilterError::CellArray { name: name.to_owned() });
-    }
-    let available = listed(&grid.point_data);
-    Err(FilterError::NoSuchArray { name: name.to_owned(), available })
-}
-
-fn default_array(grid: &UnstructuredGrid) -> Result<&DataArray, FilterError> {
-    if let Some(active) = grid.point_data.active(AttributeKind::Scalars) {
-        return Ok(active);
-    }
-    let scalars: Vec<&DataArray> = grid.point_data.iter().filter(|a| is_scalar(a)).collect();
-    match scalars[..] {
-        [only] => Ok(only),
-        _ if grid.point_data.is_empty() => {
-            Err(FilterError::NoPointArrays { cell_arrays: !grid.cell_data.is_empty() })
-        }
-        _ => Err(FilterError::AmbiguousArray { available: listed(&grid.point_data) }),
-    }
-}
-
-/// Whether an array holds one number a point, other than VTK's own marks.
-fn is_scalar(array: &DataArray) -> bool {
-    let mark = array.name.starts_with("vtkGhost") || array.name.starts_with("vtkOriginal");
-    array.components == 1 && array.array_type() != ArrayType::String && !mark
-}
-
-fn listed(arrays: &Attributes) -> String {
-    let names: Vec<String> = arrays.iter().map(|array| format!("'{}'", array.name)).collect();
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// Gradients at the points, and where they came from.
@@ -137,8 +52,8 @@ fn listed(arrays: &Attributes) -> String {
 pub struct Gradients {
     /// One gradient a point.
     pub vectors: Vec<Vector>,
-    /// The array they came from; nothing if they were recovered.
-    pub array: Option<String>,
+    /// Where they came from.
+    pub origin: GradientOrigin,
     /// What people should know about the choice.
     pub warning: Option<String>,
 }
@@ -146,7 +61,7 @@ pub struct Gradients {
 impl Gradients {
     /// No gradients, for an interpolant that needs none.
     pub fn none() -> Self {
-        Self { vectors: Vec::new(), array: None, warning: None }
+        Self { vectors: Vec::new(), origin: GradientOrigin::Unused, warning: None }
     }
 
     /// The gradients of the chosen array's values.
@@ -175,7 +90,7 @@ impl Gradients {
                         100.0 * misfit
                     )
                 });
-                Ok(Self { vectors, array: Some(name.clone()), warning })
+                Ok(Self { vectors, origin: GradientOrigin::Array(name.clone()), warning })
             }
             GradientSource::Automatic => Ok(Self::automatic(grid, mesh, chosen, values)),
         }
@@ -183,10 +98,29 @@ impl Gradients {
 
     fn recovered(mesh: &TriangleMesh, values: &[f64]) -> Self {
         let vectors = recover_gradients(mesh, values, RecoveryDegree::default());
-        Self { vectors, array: None, warning: None }
+        Self { vectors, origin: GradientOrigin::Recovered, warning: None }
     }
 
-    /// An array with a conventional name that fits the values, else recovered.
+    /// By the shape functions of quadratic cells, at their points; recovered at
+    /// points that have none. Nothing if no point has any.
+    fn of_cells(grid: &UnstructuredGrid, mesh: &TriangleMesh, values: &[f64]) -> Option<Self> {
+        let known = nodal_gradients(grid, mesh.points(), values, 2)?;
+        if known.iter().all(Option::is_none) {
+            return None;
+        }
+        let mut corners = mesh.triangles().iter().flatten();
+        let vectors = if corners.all(|&point| known[point as usize].is_some()) {
+            known.into_iter().map(Option::unwrap_or_default).collect()
+        } else {
+            let recovered = recover_gradients(mesh, values, RecoveryDegree::default());
+            let pairs = known.into_iter().zip(recovered);
+            pairs.map(|(known, recovered)| known.unwrap_or(recovered)).collect()
+        };
+        Some(Self { vectors, origin: GradientOrigin::Cells, warning: None })
+    }
+
+    /// An array with a conventional name that fits the values, else by quadratic
+    /// cells, else recovered.
     fn automatic(
         grid: &UnstructuredGrid,
         mesh: &TriangleMesh,
@@ -198,7 +132,8 @@ impl Gradients {
             let Some(vectors) = gradient_of(array, chosen) else { continue };
             let misfit = misfit(mesh, values, &vectors);
             if misfit <= WORST_FIT {
-                return Self { vectors, array: Some(array.name.clone()), warning: None };
+                let origin = GradientOrigin::Array(array.name.clone());
+                return Self { vectors, origin, warning: None };
             }
             refused.get_or_insert_with(|| {
                 format!(
@@ -210,7 +145,9 @@ impl Gradients {
                 )
             });
         }
-        Self { warning: refused, ..Self::recovered(mesh, values) }
+        let other = Self::of_cells(grid, mesh, values);
+        let other = other.unwrap_or_else(|| Self::recovered(mesh, values));
+        Self { warning: refused, ..other }
     }
 }
 

@@ -1,0 +1,83 @@
+//! The cells of a grid as meshes of triangles and tetrahedra.
+
+use super::error::FilterError;
+use crate::mesh::{SimplexMesh, Vector};
+use crate::simplices::{CellCounts, LeftOut, Pieces, SplitGrid};
+use crate::vtk::{UnstructuredGrid, Values};
+
+/// The cells of one dimension as simplices of `CORNERS` corners.
+#[derive(Clone, Debug)]
+pub struct Part<const CORNERS: usize> {
+    /// The simplices, with all the grid's points.
+    pub mesh: SimplexMesh<CORNERS>,
+    /// The cell of the grid that each simplex came from.
+    pub parents: Vec<u32>,
+}
+
+/// The two-dimensional cells of a grid.
+pub type Triangles = Part<3>;
+
+/// The solids of a grid.
+pub type Tetrahedra = Part<4>;
+
+/// The cells of a grid.
+#[derive(Clone, Debug)]
+pub struct Cells {
+    /// The two-dimensional ones, if there are any.
+    pub triangles: Option<Triangles>,
+    /// The solids, if there are any.
+    pub tetrahedra: Option<Tetrahedra>,
+    /// Those that could not be split.
+    pub left_out: LeftOut,
+    /// Solids whose tetrahedra lie over one another in part.
+    pub folded: CellCounts,
+}
+
+/// Cells with this bit in `vtkGhostType` belong to another process.
+const DUPLICATE: u8 = 1;
+
+impl Cells {
+    /// The cells of a grid.
+    ///
+    /// # Errors
+    /// If the grid has more points or cells than 32 bits can count, or contradicts
+    /// itself.
+    pub fn new(grid: &UnstructuredGrid) -> Result<Self, FilterError> {
+        let SplitGrid { points, triangles, tetrahedra, left_out, folded } = SplitGrid::new(grid)?;
+        // both need them, but grids with both are few
+        let triangles = Part::new(|| points.clone(), triangles)?;
+        let tetrahedra = Part::new(|| points, tetrahedra)?;
+        Ok(Self { triangles, tetrahedra, left_out, folded })
+    }
+}
+
+impl<const CORNERS: usize> Part<CORNERS> {
+    /// The simplices as a mesh; none without simplices.
+    fn new(
+        points: impl FnOnce() -> Vec<Vector>,
+        pieces: Pieces<CORNERS>,
+    ) -> Result<Option<Self>, FilterError> {
+        if pieces.simplices.is_empty() {
+            return Ok(None);
+        }
+        let mesh = SimplexMesh::new(points(), pieces.simplices)?;
+        Ok(Some(Self { mesh, parents: pieces.parents }))
+    }
+
+    /// The types of the cells that the simplices came from.
+    pub fn cells(&self, grid: &UnstructuredGrid) -> CellCounts {
+        let cells = self.parents.chunk_by(|one, next| one == next);
+        cells.map(|simplices| grid.types[simplices[0] as usize]).collect()
+    }
+}
+
+/// Whether the grid marks a cell as one of another process, which contours it.
+pub fn is_ghost(grid: &UnstructuredGrid, cell: u32) -> bool {
+    let ghost = grid.cell_data.get("vtkGhostType").map(|array| &array.values);
+    match ghost {
+        Some(Values::U8(flags)) => {
+            flags.get(cell as usize).is_some_and(|flag| flag & DUPLICATE != 0)
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,106 @@
+//! The cells of a grid as triangles and tetrahedra.
+
+use thiserror::Error;
+
+use super::cell_type::CellCounts;
+use super::left_out::LeftOut;
+use super::orientation::Lie;
+use super::splitter::Splitter;
+use crate::mesh::Vector;
+use crate::vtk::{ArrayError, DataArray, UnstructuredGrid};
+
+/// Simplices of `CORNERS` corners, and the cells that they came from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pieces<const CORNERS: usize> {
+    /// Points of the grid, of each simplex.
+    pub simplices: Vec<[u32; CORNERS]>,
+    /// The cell of the grid that each simplex is part of; never falling.
+    pub parents: Vec<u32>,
+}
+
+impl<const CORNERS: usize> Pieces<CORNERS> {
+    /// Notes that all simplices without a parent are part of `cell`.
+    fn close(&mut self, cell: usize) {
+        self.parents.resize(self.simplices.len(), cell as u32);
+    }
+}
+
+/// All cells of a grid as simplices between the grid's own points.
+///
+/// Solids that share a face cut it alike, so that the tetrahedra fit together;
+/// each has a positive volume.
+#[derive(Clone, Debug, Default)]
+pub struct SplitGrid {
+    /// The grid's points, in its unit of length.
+    pub points: Vec<Vector>,
+    /// The triangles of the two-dimensional cells.
+    pub triangles: Pieces<3>,
+    /// The tetrahedra of the solids.
+    pub tetrahedra: Pieces<4>,
+    /// The cells that could not be split. Points and lines hold no simplices and are
+    /// not counted.
+    pub left_out: LeftOut,
+    /// Solids whose tetrahedra lie over one another in part, because the solid is
+    /// not convex or its faces are not plane. They are not left out.
+    pub folded: CellCounts,
+}
+
+/// Why a grid cannot be split.
+#[derive(Clone, Debug, Error)]
+pub enum SplitError {
+    /// Points need three coordinates (or two).
+    #[error("the points do not have three coordinates each")]
+    Points,
+    /// Numbers of points and cells have 32 bits.
+    #[error("the grid has more than 4294967295 points or cells")]
+    TooLarge,
+    /// A cell or a face names a point that is not there.
+    #[error("the cells do not fit the points: {0}")]
+    Cells(ArrayError),
+}
+
+impl SplitGrid {
+    /// Splits all cells of a grid.
+    ///
+    /// # Errors
+    /// If the grid has more points or cells than 32 bits can count, or contradicts
+    /// itself. Cells that cannot be split are no error but counted.
+    pub fn new(grid: &UnstructuredGrid) -> Result<Self, SplitError> {
+        let points = vectors(&grid.points).ok_or(SplitError::Points)?;
+        check(grid, points.len())?;
+        let mut split = Self { points, ..Self::default() };
+        let mut splitter = Splitter::new(grid, &split.points);
+        for (cell, (points, &cell_type)) in grid.cells.iter().zip(&grid.types).enumerate() {
+            let (triangles, tetrahedra) = (&mut split.triangles, &mut split.tetrahedra);
+            let (flat, solid) = (&mut triangles.simplices, &mut tetrahedra.simplices);
+            match splitter.cut(cell, points, flat, solid) {
+                Ok(Lie::Apart) => {}
+                Ok(Lie::Folded) => split.folded.add(cell_type),
+                Err(reason) => split.left_out.add(cell_type, reason),
+            }
+            triangles.close(cell);
+            tetrahedra.close(cell);
+        }
+        Ok(split)
+    }
+}
+
+/// Refuses grids whose numbers are not those of points, or do not fit 32 bits.
+fn check(grid: &UnstructuredGrid, points: usize) -> Result<(), SplitError> {
+    if u32::try_from(points).is_err() || u32::try_from(grid.types.len()).is_err() {
+        return Err(SplitError::TooLarge);
+    }
+    grid.cells.check_indices(points).map_err(SplitError::Cells)?;
+    let faces = grid.polyhedra.as_ref().map(|polyhedra| &polyhedra.faces);
+    faces.map_or(Ok(()), |faces| faces.check_indices(points)).map_err(SplitError::Cells)
+}
+
+/// The tuples of an array of three components (or two, with z = 0).
+pub fn vectors(array: &DataArray) -> Option<Vec<Vector>> {
+    let values = array.to_f64()?;
+    match array.components {
+        3 => Some(values.chunks_exact(3).map(Vector::from_column_slice).collect()),
+        2 => Some(values.chunks_exact(2).map(|p| Vector::new(p[0], p[1], 0.0)).collect()),
+        _ => None,
+    }
+}

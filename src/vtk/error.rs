@@ -30,7 +30,7 @@ pub enum VtkError {
     OtherType { path: PathBuf, found: String, expected: &'static str },
 
     /// A file that another one lists cannot be read.
-    #[error("'{}' lists a piece that cannot be read: {problem}", file(path))]
+    #[error("'{}' lists a file that cannot be read: {problem}", file(path))]
     Piece { path: PathBuf, problem: Box<VtkError> },
 
     /// The file lists the files of a series.

@@ -17,7 +17,10 @@ pub struct Triangles {
     pub skipped: CellCounts,
 }
 
-/// Cells with this bit in `vtkGhostType` belong to another process.
+/// VTK's name of the cell array that marks ghosts.
+pub const GHOSTS: &str = "vtkGhostType";
+
+/// Cells with this bit in [`GHOSTS`] belong to another process.
 const DUPLICATE: u8 = 1;
 
 impl Triangles {
@@ -89,7 +92,7 @@ fn cut_quad(mut corners: [u32; 4]) -> [[u32; 3]; 2] {
 
 /// Whether the grid marks a cell as one of another process, which contours it.
 pub fn is_ghost(grid: &UnstructuredGrid, cell: u32) -> bool {
-    let ghost = grid.cell_data.get("vtkGhostType").map(|array| &array.values);
+    let ghost = grid.cell_data.get(GHOSTS).map(|array| &array.values);
     match ghost {
         Some(crate::vtk::Values::U8(flags)) => {
             flags.get(cell as usize).is_some_and(|flag| flag & DUPLICATE != 0)

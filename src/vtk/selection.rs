@@ -1,5 +1,7 @@
 //! Which arrays to read.
 
+use super::description::{ArrayInfo, Description};
+
 /// Which arrays of points and cells to read. Points, cells and field data always are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
@@ -42,6 +44,13 @@ impl Selection {
             points: points.into_iter().map(Into::into).collect(),
             cells: cells.into_iter().map(Into::into).collect(),
         }
+    }
+
+    /// The arrays that a description lists: of pieces, those that all of them have.
+    pub fn all_of(description: &Description) -> Self {
+        let names = |arrays: &[ArrayInfo]| arrays.iter().map(|a| a.name.clone()).collect();
+        let (points, cells) = (names(&description.point_arrays), names(&description.cell_arrays));
+        Self::AtMost { points, cells }
     }
 
     /// What is asked of the point arrays.

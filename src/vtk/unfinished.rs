@@ -21,9 +21,10 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 /// a program that is about to end, because it was interrupted.
 pub fn abandon_unfinished_files() {
     let names = unfinished();
-    // what is in a folder comes after it
-    for name in names.iter().rev() {
-        let _ = fs::remove_file(name).or_else(|_| fs::remove_dir(name));
+    // a folder can be removed when its files are
+    let folders = names.iter().filter(|name| fs::remove_file(name).is_err());
+    for folder in folders.collect::<Vec<_>>() {
+        let _ = fs::remove_dir(folder);
     }
     std::mem::forget(names);
 }

@@ -69,7 +69,8 @@ impl AnyFile {
             "PolyData" => file.try_into().map(Self::Vtp),
             "PPolyData" => file.try_into().map(Self::Pvtp),
             pvd_file::KIND => file.try_into().map(Self::Pvd),
-            _ => file.try_into().map(Self::Vtu),
+            "UnstructuredGrid" => file.try_into().map(Self::Vtu),
+            _ => Err(VtkError::NoGrid { path: path.to_owned(), found: kind }),
         }
     }
 
@@ -189,7 +190,8 @@ mod tests {
             error
         };
         assert!(matches!(error("5"), VtkError::Series { .. }));
-        assert!(error("6").to_string().contains("holds a VTK ImageData"));
+        let message = error("6").to_string();
+        assert!(message.contains("holds a VTK ImageData, neither a grid nor"), "{message}");
         assert!(matches!(error("7"), VtkError::Read { .. }));
     }
 }

@@ -166,7 +166,9 @@ fn help_teaches() {
         }
     }
     let text = String::from_utf8(bench.run(&["--help"]).stdout).unwrap();
-    assert!(text.contains("Examples:") && text.contains("--param k=20"));
+    for example in ["Examples:", "--param k=20", "run.pvd -o lines.pvd", "--time last"] {
+        assert!(text.contains(example), "no {example} in the help");
+    }
 }
 
 #[test]

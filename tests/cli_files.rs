@@ -258,6 +258,21 @@ fn pieces_are_joined_or_kept_apart() {
 }
 
 #[test]
+fn pieces_of_a_list_have_the_arrays_that_all_have() {
+    let bench = Bench::new();
+    write_pieces(&bench);
+    let mut grid = solution(1.0);
+    grid.point_data.push(DataArray::new("extra", 1, vec![1i8; 9]));
+    write_vtu(bench.path("piece_1.vtu"), &grid, Default::default()).unwrap();
+    let said = bench.succeed(&["in.pvtu", "-o", "out.pvtp", "-a", "u"]);
+    assert!(said.contains("'extra' left out: not every piece has it"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    let list = PvtpFile::open(bench.path("out.pvtp")).unwrap();
+    assert_eq!(list.read(&Selection::All).unwrap().warnings, [""; 0]);
+    assert!(list.piece_paths().iter().all(|p| read_lines(p).point_data.get("extra").is_none()));
+}
+
+#[test]
 fn a_single_grid_in_a_list_has_the_time_of_its_data() {
     let bench = Bench::new();
     write_vtu(bench.path("in.vtu"), &solution(2.5), Default::default()).unwrap();

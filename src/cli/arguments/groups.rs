@@ -15,6 +15,8 @@ use super::values::{Time, component, level, parameter, positive, range, time};
 #[command(next_help_heading = "What to contour")]
 pub struct ScalarArguments {
     /// Of a series (.pvd), only the step at this time
+    ///
+    /// Files of the series without a time belong to all steps.
     #[arg(long, value_name = "T|first|last", value_parser = time, allow_hyphen_values = true)]
     pub time: Option<Time>,
 
@@ -96,6 +98,8 @@ pub struct LineArguments {
 
     /// Greatest distance of a segment from the contour, in the mesh's unit
     /// [default: 1e-5 of the bounding box's diagonal]
+    ///
+    /// Steps of a series and pieces of a .pvtp have each the default of their own box.
     #[arg(long, value_name = "T", value_parser = positive)]
     pub tolerance: Option<f64>,
 

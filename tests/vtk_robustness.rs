@@ -5,7 +5,7 @@
 //! is the same test with another number, and other seeds hunt elsewhere:
 //!
 //! ```text
-//! VTK_MUTATIONS=1000000 VTK_SEED=2 cargo test --release --test vtk_robustness mutated
+//! VTK_MUTATIONS=1000000 VTK_SEED=2 cargo test --test vtk_robustness mutated
 //! ```
 
 #[path = "vtk_common/counting.rs"]

@@ -2,7 +2,7 @@
 //! memory than the file accounts for.
 //!
 //! A test run makes 20 000 mutated files of every format and encoding. The hunt of a million
-//! is the same test with another number, and other seeds hunt elsewhere:
+//! is the same test with another number, takes about two minutes, and other seeds hunt elsewhere:
 //!
 //! ```text
 //! VTK_MUTATIONS=1000000 VTK_SEED=2 cargo test --test vtk_robustness mutated

@@ -1,91 +1,10 @@
 //! The command line: what it writes, what it says, how it ends.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+#[path = "support/program.rs"]
+mod program;
 
-use tempfile::TempDir;
-use vtu2contour::vtk::{
-    DataArray, Selection, UnstructuredGrid, Values, VtpFile, VtuFile, write_vtu,
-};
-
-/// A folder for a test's files, and the program run in it.
-struct Bench {
-    folder: TempDir,
-}
-
-impl Bench {
-    fn new() -> Self {
-        Self { folder: tempfile::tempdir().unwrap() }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        let program = env!("CARGO_BIN_EXE_vtu2contour");
-        Command::new(program).args(arguments).current_dir(self.folder.path()).output().unwrap()
-    }
-
-    /// Runs a job that must succeed; returns what it said.
-    fn succeed(&self, arguments: &[&str]) -> String {
-        let output = self.run(arguments);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.success(), "{arguments:?} failed: {said}");
-        said
-    }
-
-    /// Runs a job that must fail with the given exit code; returns what it said.
-    fn fail(&self, code: i32, arguments: &[&str]) -> String {
-        let output = self.run(arguments);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
-        assert!(!said.contains("panicked"), "{said}");
-        assert!(!self.path("out.vtp").exists(), "{arguments:?} left a file");
-        said
-    }
-
-    /// A unit square of 8 triangles with the given arrays, as `in.vtu`.
-    fn write_grid(&self, point_arrays: Vec<DataArray>, cell_arrays: Vec<DataArray>) {
-        let mut grid = square();
-        point_arrays.into_iter().for_each(|array| grid.point_data.push(array));
-        cell_arrays.into_iter().for_each(|array| grid.cell_data.push(array));
-        write_vtu(self.path("in.vtu"), &grid, Default::default()).unwrap();
-    }
-}
-
-/// The unit square as 2 by 2 squares of two triangles.
-fn square() -> UnstructuredGrid {
-    let corners = [0_i64, 1, 3, 4];
-    let halves = corners.map(|n| [[n, n + 1, n + 4], [n, n + 4, n + 3]]);
-    let cells: Vec<(u8, &[i64])> = halves.iter().flatten().map(|half| (5, &half[..])).collect();
-    square_of(&cells)
-}
-
-/// Nine points of the unit square, row by row, and the given cells.
-fn square_of(cells: &[(u8, &[i64])]) -> UnstructuredGrid {
-    let coordinates: Vec<f64> =
-        (0..9).flat_map(|n| [f64::from(n % 3) / 2.0, f64::from(n / 3) / 2.0, 0.0]).collect();
-    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
-    cells.iter().for_each(|(cell_type, points)| grid.push_cell(*cell_type, points));
-    grid
-}
-
-fn u() -> DataArray {
-    DataArray::new("u", 1, (0..9).map(|n| f64::from(n % 3)).collect::<Vec<f64>>())
-}
-
-fn samples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("samples")
-}
-
-fn sample(name: &str) -> String {
-    samples().join(name).to_str().unwrap().to_owned()
-}
-
-fn read_lines(path: &Path) -> vtu2contour::vtk::PolyData {
-    VtpFile::open(path).unwrap().read(&Selection::All).unwrap().data
-}
+use program::{Bench, read_lines, sample, square_of, u};
+use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, Values, VtuFile, write_vtu};
 
 #[test]
 fn lines_follow_the_conventions_of_vtk() {
@@ -247,7 +166,9 @@ fn help_teaches() {
         }
     }
     let text = String::from_utf8(bench.run(&["--help"]).stdout).unwrap();
-    assert!(text.contains("Examples:") && text.contains("--param k=20"));
+    for example in ["Examples:", "--param k=20", "run.pvd -o lines.pvd", "--time last"] {
+        assert!(text.contains(example), "no {example} in the help");
+    }
 }
 
 #[test]
@@ -287,7 +208,7 @@ fn warnings_where_users_of_vtk_expect_output() {
 #[test]
 fn bad_input_is_one_clear_line() {
     let bench = Bench::new();
-    let cases: [(&[&str], &str); 13] = [
+    let cases: [(&[&str], &str); 14] = [
         (&["no.vtu", "-o", "out.vtp"], "cannot read 'no.vtu'"),
         (
             &["in.vtu", "-o", "out.vtp", "-a", "w"],
@@ -302,8 +223,12 @@ fn bad_input_is_one_clear_line() {
         (&["in.vtu", "-o", "out.vtp", "--pde", "uxx + = 1"], "--pde: character 7"),
         (&["in.vtu", "-o", "out.vtp", "--pde", "uxx = w"], "w"),
         (&["in.vtu", "-o", "out.vtp", "--tolerance", "1e-30"], "too small"),
-        (&["in.vtu", "-o", "out.txt"], "must end in .vtp or .vtu (lines) or .svg (a picture)"),
-        (&["in.vtu", "-o", "nowhere/out.vtp"], "nowhere"),
+        (&["in.vtu", "-o", "out.txt"], "must end in .vtp or .vtu (lines), .svg (a picture), .pvtp"),
+        (
+            &["in.vtu", "-o", "nowhere/out.vtp"],
+            "cannot write 'nowhere/out.vtp': there is no folder 'nowhere': make it first\n",
+        ),
+        (&["in.vtu", "-o", "out.vtp", "--time", "first"], "'in.vtu' is no series (.pvd)"),
     ];
     let text = ["a"; 9].map(String::from).to_vec();
     let vector = DataArray::new("v", 3, vec![1.0; 27]);

@@ -121,6 +121,9 @@ fn only_selected_arrays_are_decoded() {
     assert!(error.contains("'s 1' of PointData: 'x' at byte"), "{error}");
     let data = file.read(&Selection::named(["v"], [""; 0])).unwrap().data.into_grid();
     assert_eq!((data.point_data.len(), data.cell_data.len()), (1, 0));
+    let points = ["v", "q"].map(String::from).to_vec();
+    let at_most = file.read(&Selection::AtMost { points, cells: vec![] }).unwrap();
+    assert_eq!(at_most.data.into_grid(), data);
     let error = file.read(&Selection::named(["q"], [""; 0])).unwrap_err();
     assert!(matches!(error, VtkError::MissingArray { .. }), "{error}");
     assert_eq!(file.description().point_arrays[0].name, "s 1");

@@ -5,9 +5,9 @@ mod vtk_common;
 use std::path::Path;
 use vtk_common::{sample, variants};
 use vtu2contour::vtk::{
-    AttributeKind, DataArray, Declaration, Encoding, Floats, PolyData, PvdEntry, PvdFile, PvtpFile,
-    PvtuFile, Selection, UnstructuredGrid, VtkError, VtuFile, WriteOptions, read_grid, write_pvd,
-    write_pvtp, write_pvtu, write_vtp, write_vtu,
+    AnyFile, AttributeKind, DataArray, Declaration, Encoding, Floats, PolyData, PvdEntry, PvdFile,
+    PvtpFile, PvtuFile, Selection, UnstructuredGrid, VtkError, VtuFile, WriteOptions, read_grid,
+    write_pvd, write_pvtp, write_pvtu, write_vtp, write_vtu,
 };
 
 /// A tetrahedron whose points and data count from `first`.
@@ -62,6 +62,10 @@ fn pieces_are_joined_or_streamed() {
     let description = file.description().unwrap();
     assert_eq!((description.points(), description.cells()), (12, 3));
     assert_eq!(description.pieces.len(), 5);
+    let any = AnyFile::open(&list).unwrap();
+    assert_eq!(any.piece_paths(), file.piece_paths());
+    let piece = |index| any.read_piece(index, &Selection::All).unwrap().data;
+    assert_eq!((0..5).map(piece).collect::<Vec<_>>(), pieces);
     let read = |file: Result<VtuFile, _>| file.unwrap().read(&Selection::All).unwrap().data;
     let streamed: Vec<_> = file.pieces().map(read).collect();
     assert_eq!(streamed, pieces);
@@ -108,7 +112,7 @@ fn bad_pieces_are_named() {
     std::fs::write(&second, "<VTKFile type='PolyData'/>").unwrap();
     assert!(message().contains("1.vtu' holds a VTK PolyData"), "{}", message());
     std::fs::remove_file(&second).unwrap();
-    assert!(message().contains("x.pvtu' lists a piece that cannot be read"), "{}", message());
+    assert!(message().contains("x.pvtu' lists a file that cannot be read"), "{}", message());
     assert!(message().contains("ä 1.vtu"), "{}", message());
     std::fs::create_dir(&second).unwrap();
     assert!(message().contains("no regular file"), "{}", message());
@@ -153,8 +157,11 @@ fn field_data_of_the_list_come_before_those_of_the_pieces() {
     let list = write_pieces(folder.path(), &[empty(), tetrahedron(7), tetrahedron(9)]);
     let time = |text: &str| {
         let file = PvtuFile::from_bytes(&list, text.to_owned().into_bytes()).unwrap();
-        let field = file.read(&Selection::All).unwrap().data.field_data;
-        field.get("TimeValue").unwrap().values.clone()
+        let all = &Selection::All;
+        let [joined, second] = [file.read(all), file.read_piece(1, all)]
+            .map(|read| read.unwrap().data.field_data.get("TimeValue").unwrap().values.clone());
+        assert_eq!(joined, second);
+        joined
     };
     let text = std::fs::read_to_string(&list).unwrap();
     assert_eq!(time(&text), vec![7.0].into());
@@ -184,6 +191,8 @@ fn surfaces_in_pieces() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert_eq!(loaded.data.polys.connectivity(), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
     assert_eq!(PvtpFile::open(&list).unwrap().pieces().len(), 3);
+    let piece = AnyFile::open(&list).unwrap().read_piece(2, &Selection::All).unwrap().data;
+    assert_eq!(piece.cells.connectivity(), [0, 1, 2]);
 }
 
 #[test]
@@ -205,4 +214,25 @@ fn series_come_back() {
     let error = read_grid(&list, &Selection::All).unwrap_err();
     assert!(matches!(error, VtkError::Series { .. }), "{error}");
     assert!(error.to_string().contains("is a series of files"), "{error}");
+}
+
+#[test]
+fn entries_of_a_series_are_opened_by_what_they_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let list = path("x.pvd");
+    write_vtu(path("grid.vtk"), &tetrahedron(0), WriteOptions::default()).unwrap();
+    std::fs::create_dir(path("folder")).unwrap();
+    let names = ["grid.vtk", "missing.vtu", "x.pvd", "folder"];
+    let entries: Vec<_> = names.iter().map(|name| PvdEntry::new(0.0, path(name))).collect();
+    write_pvd(&list, &entries).unwrap();
+    let AnyFile::Pvd(series) = AnyFile::open(&list).unwrap() else { panic!("no series") };
+    let open = |entry: usize| series.open_entry(&series.entries()[entry]);
+    assert!(matches!(open(0).unwrap(), AnyFile::Vtu(_)));
+    for (entry, reason) in [(1, "missing.vtu"), (2, "is a series of files"), (3, "no regular file")]
+    {
+        let message = open(entry).unwrap_err().to_string();
+        assert!(message.contains("x.pvd' lists a file that cannot be read"), "{message}");
+        assert!(message.contains(reason), "{message}");
+    }
 }

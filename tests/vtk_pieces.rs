@@ -114,6 +114,13 @@ fn arrays_of_the_wrong_length_are_left_out_or_refused() {
     assert_eq!(loaded.data.point_data.len(), 1);
     assert!(loaded.data.point_data.active_names().is_empty());
     assert!(loaded.warnings[0].contains("3 values where 2 are expected"));
+    let at_most = |names: &[&str]| {
+        let points = names.iter().map(|name| name.to_string()).collect();
+        let loaded = file.read(&Selection::AtMost { points, cells: vec![] }).unwrap();
+        (loaded.data.point_data.len(), loaded.warnings.len())
+    };
+    assert_eq!(at_most(&["s", "t"]), (1, 1));
+    assert_eq!((at_most(&["s", "x"]), at_most(&["t", "x"])), ((0, 1), (1, 0)));
     let error = file.read(&Selection::named(["s"], [""; 0])).unwrap_err();
     assert_eq!(error.to_string(), "'x.vtu': array 's' of PointData: 3 values where 2 are expected");
 }

@@ -4,7 +4,7 @@
 use std::f64::consts::E;
 use std::path::{Path, PathBuf};
 use vtu2contour::vtk::{
-    AttributeKind, Selection, UnstructuredGrid, VtkError, VtpFile, VtuFile, describe, read_grid,
+    AnyFile, AttributeKind, Selection, UnstructuredGrid, VtkError, VtpFile, VtuFile, read_grid,
 };
 
 fn folder() -> PathBuf {
@@ -156,7 +156,7 @@ fn every_file_is_read_or_refused_politely() {
         match read_grid(&path, &Selection::All) {
             Ok(loaded) => {
                 assert!(is_grid, "{}", path.display());
-                let description = describe(&path).unwrap();
+                let description = AnyFile::open(&path).unwrap().description().unwrap();
                 assert_eq!(description.points(), loaded.data.points.tuples());
                 assert_eq!(description.cells(), loaded.data.cells.len());
             }

@@ -1,5 +1,12 @@
 //! Cut, corrupted and forged files: an error or sane data, never a panic, a hang, or more
 //! memory than the file accounts for.
+//!
+//! A test run makes 20 000 mutated files of every format and encoding. The hunt of a million
+//! is the same test with another number, takes about two minutes, and other seeds hunt elsewhere:
+//!
+//! ```text
+//! VTK_MUTATIONS=1000000 VTK_SEED=2 cargo test --test vtk_robustness mutated
+//! ```
 
 #[path = "vtk_common/counting.rs"]
 mod counting;

@@ -1,28 +1,23 @@
-//! `vtu2contour contour`: contour lines of a grid.
+//! `vtu2contour contour`: contour lines of a grid, of its pieces, or of a series.
 
-use std::io::Write;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use vtu2contour::filter::{Contoured, FilterError, Stage, contour, picture};
-use vtu2contour::vtk::{AtomicFile, Selection, VtuFile, write_vtp, write_vtu};
+use anyhow::{Context, Result, anyhow, bail};
+use vtu2contour::contour::Levels;
+use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour, preview};
+use vtu2contour::vtk::{AtomicFile, PvdEntry, UnstructuredGrid};
 
 use super::arguments::ContourArguments;
+use super::input::{Arrays, Input, Part};
 use super::messages::Messages;
+use super::output::{Format, Output, listed_file};
 use super::stats::{Clock, Stats, Step};
-
-/// The kinds of output.
-#[derive(Clone, Copy)]
-enum Format {
-    Vtp,
-    Vtu,
-    Svg,
-}
+use super::warnings::Warnings;
 
 /// Runs the job.
 pub fn run(arguments: &ContourArguments) -> Result<()> {
-    let format = format_of(arguments.output())?;
-    check_names(arguments)?;
+    let format = Format::of(arguments.output())?;
     let running = &arguments.running;
     if let Some(threads) = running.threads {
         rayon::ThreadPoolBuilder::new()
@@ -31,52 +26,206 @@ pub fn run(arguments: &ContourArguments) -> Result<()> {
             .context("cannot start the threads")?;
     }
     let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
-    let result = job(arguments, format, &messages);
+    let result = write_contours(arguments, format, &messages);
     messages.finish();
     result
 }
 
-fn job(arguments: &ContourArguments, format: Format, messages: &Messages) -> Result<()> {
-    let mut clock = Clock::start();
+fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messages) -> Result<()> {
+    let clock = Clock::start();
+    messages.stage("opening");
+    let input = open(arguments, format)?;
+    check_names(arguments, format, &input)?;
     // a folder that is missing is better told before the work than after
     let stats_file = arguments.output_options.stats.as_ref().map(AtomicFile::create).transpose()?;
-    messages.stage("reading");
-    let loaded = VtuFile::open(arguments.input())?.read(&Selection::All)?;
-    for warning in &loaded.warnings {
-        messages.warning(warning);
-    }
-    let mut progress = |stage: Stage| {
-        clock.next(Step::Filter(stage));
-        messages.stage(match stage {
-            Stage::Field => "taking values and gradients",
-            Stage::Interpolant => "building the cubics",
-            Stage::Contour => "tracing contours",
-            Stage::Data => "carrying data over",
-        });
+    let options = &arguments.output_options;
+    let mut output = Output::begin(arguments.output(), options.write_options(), options.mesh)?;
+    let mut job = Job {
+        input: &input,
+        options: arguments.options(),
+        has_data: format.has_data(),
+        messages,
+        clock,
+        warnings: Warnings::default(),
+        stats: Stats::default(),
+        nothing: None,
     };
-    let contoured = contour(&loaded.data, &arguments.options(), &mut progress)
-        .map_err(|error| explained(&error, arguments.input()))?;
-    clock.next(Step::Write);
-    messages.stage("writing");
-    tell(&contoured, messages);
-    let stats = Stats::new(&contoured);
-    write(arguments, format, contoured)?;
-    if let Some(file) = stats_file {
-        write_stats(file, &stats.with_times(clock.stop()))?;
+    let result = job.run(&mut output);
+    job.warnings.lines(input.parts.len()).for_each(|line| messages.warning(&line));
+    result?;
+    let stats = stats_file.map(|file| job.stats.write(file, job.clock.stop())).transpose()?;
+    output.finish()?;
+    stats.map_or(Ok(()), |file| Ok(file.commit()?))
+}
+
+/// Opens the input, and refuses output that cannot hold all of it.
+fn open(arguments: &ContourArguments, format: Format) -> Result<Input> {
+    let time = arguments.scalars.time;
+    let input = Input::open(arguments.input(), time, format == Format::Pvtp)?;
+    if !input.is_series() || !input.is_several() || format == Format::Pvd {
+        return Ok(input);
     }
-    Ok(())
+    let (path, count) = (arguments.input().display(), input.parts.len());
+    match time {
+        None => bail!(
+            "'{path}' is a series of {count} files: write a series, with -o NAME.pvd, or choose a \
+             step, with --time T, first or last"
+        ),
+        Some(_) => bail!("'{path}' has {count} files at that time: write a series, -o NAME.pvd"),
+    }
+}
+
+/// Contouring all parts of an input at the same levels.
+struct Job<'a> {
+    input: &'a Input,
+    options: ContourOptions,
+    /// Whether the input's data travel along.
+    has_data: bool,
+    messages: &'a Messages,
+    clock: Clock,
+    warnings: Warnings,
+    stats: Stats,
+    /// Why the first of the parts without anything to contour has nothing.
+    nothing: Option<anyhow::Error>,
+}
+
+impl Job<'_> {
+    fn run(&mut self, output: &mut Output) -> Result<()> {
+        self.input.warnings.iter().for_each(|text| self.warnings.add(None, text));
+        if self.input.is_several() {
+            self.share_levels()?;
+        }
+        for (place, part) in self.input.parts.iter().enumerate() {
+            self.contour_part(place, part, output)?;
+        }
+        if self.stats.is_empty() {
+            let all_empty = || anyhow!("nothing to contour: every piece is empty");
+            return Err(self.nothing.take().unwrap_or_else(all_empty));
+        }
+        if let Some(warning) = self.stats.level_warning() {
+            self.warnings.add(None, &warning);
+        }
+        Ok(())
+    }
+
+    /// Chooses the levels, where they are inside a range that only all parts together tell.
+    fn share_levels(&mut self) -> Result<()> {
+        if !matches!(self.options.levels, Levels::Equal { range: None, .. }) {
+            return Ok(());
+        }
+        self.clock.next(Step::Range);
+        let mut all: Option<[f64; 2]> = None;
+        for (place, part) in self.input.parts.iter().enumerate() {
+            self.stage(place, "looking for the range");
+            let grid = self.input.read(part, Arrays::Needed(&self.options))?.data;
+            match preview(&grid, &self.options) {
+                Ok(found) => all = Some(joined(all, found.range)),
+                Err(_) if grid.types.is_empty() => {}
+                Err(error) if error.is_nothing_to_contour() => {}
+                Err(error) => return Err(self.input.explained(part, &error)),
+            }
+        }
+        if let Some(range) = all {
+            self.options.levels = Levels::Explicit(self.options.levels.resolve(range)?);
+        }
+        Ok(())
+    }
+
+    fn contour_part(&mut self, place: usize, part: &Part, output: &mut Output) -> Result<()> {
+        self.clock.next(Step::Read);
+        self.stage(place, "reading");
+        let arrays = if self.has_data { Arrays::All } else { Arrays::Needed(&self.options) };
+        let loaded = self.input.read(part, arrays)?;
+        let name = self.input.name(part);
+        loaded.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
+        let Some(contoured) = self.contour(place, part, &loaded.data)? else { return Ok(()) };
+        self.clock.next(Step::Write);
+        self.stage(place, "writing");
+        let report = &contoured.report;
+        report.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
+        self.messages.detail(&described(&contoured, name.as_deref()));
+        let entry = self.entry(part, &loaded.data);
+        self.stats.add(&entry, &contoured);
+        output.add(place, &entry, contoured)
+    }
+
+    /// The contours of a part; nothing if it holds nothing to contour, but others may.
+    fn contour(
+        &mut self,
+        place: usize,
+        part: &Part,
+        grid: &UnstructuredGrid,
+    ) -> Result<Option<Contoured>> {
+        let several = self.input.is_several();
+        if several && grid.types.is_empty() && !self.input.is_series() {
+            return Ok(None); // a process may have had no cells
+        }
+        let (clock, messages) = (&mut self.clock, self.messages);
+        let prefix = prefix(place, self.input);
+        let mut progress = |stage: Stage| {
+            clock.next(Step::Filter(stage));
+            messages.stage(&format!("{prefix}{}", name_of(stage)));
+        };
+        match contour(grid, &self.options, &mut progress) {
+            Ok(contoured) => Ok(Some(contoured)),
+            Err(error) if several && (error.is_nothing_to_contour() || grid.types.is_empty()) => {
+                self.warnings.add(self.input.name(part).as_deref(), &error.to_string());
+                self.nothing.get_or_insert(self.input.explained(part, &error));
+                Ok(None)
+            }
+            Err(error) => Err(self.input.explained(part, &error)),
+        }
+    }
+
+    /// The part for a list: what is no step of a series has the time of its data.
+    fn entry(&self, part: &Part, grid: &UnstructuredGrid) -> PvdEntry {
+        let time_value = || grid.field_data.get("TimeValue")?.component(0)?.first().copied();
+        let time = match self.input.is_series() {
+            true => part.entry.time,
+            false => time_value(),
+        };
+        PvdEntry { time, ..part.entry.clone() }
+    }
+
+    fn stage(&self, place: usize, text: &str) {
+        self.messages.stage(&format!("{}{text}", prefix(place, self.input)));
+    }
+}
+
+/// How far the job is, before what it is doing.
+fn prefix(place: usize, input: &Input) -> String {
+    match input.is_several() {
+        true => format!("{} of {}: ", place + 1, input.parts.len()),
+        false => String::new(),
+    }
+}
+
+fn name_of(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Field => "taking values and gradients",
+        Stage::Interpolant => "building the cubics",
+        Stage::Contour => "tracing contours",
+        Stage::Data => "carrying data over",
+    }
+}
+
+fn joined(all: Option<[f64; 2]>, [low, high]: [f64; 2]) -> [f64; 2] {
+    all.map_or([low, high], |[least, greatest]| [least.min(low), greatest.max(high)])
 }
 
 /// Refuses to write over what is read, or two files under one name.
-fn check_names(arguments: &ContourArguments) -> Result<()> {
-    let written = [Some(arguments.output()), arguments.output_options.stats.as_deref()];
-    let mut taken = vec![real_name(arguments.input())];
-    for path in written.into_iter().flatten() {
-        let name = real_name(path);
-        if taken.contains(&name) {
+fn check_names(arguments: &ContourArguments, format: Format, input: &Input) -> Result<()> {
+    let output = arguments.output();
+    let mut written = vec![output.to_owned()];
+    written.extend(arguments.output_options.stats.clone());
+    if format.is_list() {
+        written.extend((0..input.parts.len()).map(|place| listed_file(output, place)));
+    }
+    let mut taken: HashSet<PathBuf> = input.files()?.iter().map(|path| real_name(path)).collect();
+    for path in written {
+        if !taken.insert(real_name(&path)) {
             bail!("'{}' would be written over: give another name", path.display());
         }
-        taken.push(name);
     }
     Ok(())
 }
@@ -92,64 +241,16 @@ fn real_name(path: &Path) -> PathBuf {
     whole.or_else(in_folder).unwrap_or_else(|| path.to_owned())
 }
 
-fn format_of(output: &Path) -> Result<Format> {
-    let extension = output.extension().and_then(|extension| extension.to_str());
-    match extension.map(str::to_lowercase).as_deref() {
-        Some("vtp") => Ok(Format::Vtp),
-        Some("vtu") => Ok(Format::Vtu),
-        Some("svg") => Ok(Format::Svg),
-        _ => bail!(
-            "cannot write '{}': the output's name must end in .vtp or .vtu (lines) or .svg (a picture)",
-            output.display()
-        ),
-    }
-}
-
-/// The error with the file's name; a PDE's with the place marked below.
-fn explained(error: &FilterError, input: &Path) -> anyhow::Error {
-    match error {
-        FilterError::Pde(problem) => anyhow::anyhow!("{error}\n{}", problem.caret()),
-        _ => anyhow::anyhow!("'{}': {error}", input.display()),
-    }
-}
-
-fn write(arguments: &ContourArguments, format: Format, contoured: Contoured) -> Result<()> {
-    let options = &arguments.output_options;
-    match format {
-        Format::Vtp => {
-            write_vtp(arguments.output(), &contoured.poly_data, options.write_options())?;
-        }
-        Format::Vtu => {
-            let lines = contoured.poly_data.into_grid();
-            write_vtu(arguments.output(), &lines, options.write_options())?;
-        }
-        Format::Svg => {
-            let mut file = AtomicFile::create(arguments.output())?;
-            picture(&contoured, options.mesh).write(&mut file)?;
-            file.commit()?;
-        }
-    }
-    Ok(())
-}
-
-fn write_stats(mut file: AtomicFile, stats: &Stats) -> Result<()> {
-    serde_json::to_writer_pretty(&mut file, stats)?;
-    writeln!(file)?;
-    Ok(file.commit()?)
-}
-
-/// Tells what was done, and what could not be.
-fn tell(contoured: &Contoured, messages: &Messages) {
+/// What was done with a part, for those who want to know.
+fn described(contoured: &Contoured, name: Option<&str>) -> String {
     let Contoured { lines, report, .. } = contoured;
-    for warning in &report.warnings {
-        messages.warning(warning);
-    }
     let closed = lines.lines.iter().filter(|line| line.closed).count();
-    messages.detail(&format!(
-        "array '{}', gradient {}, range {:?} to {:?}\n\
+    format!(
+        "{}array '{}', gradient {}, range {:?} to {:?}\n\
          {} triangles; {} active at {} levels, {} subdivided, {} unresolved\n\
          tolerance {:e}, spacing {:e}\n\
          {} lines ({closed} closed), {} points",
+        name.map_or(String::new(), |name| format!("{name}\n")),
         report.label,
         report.gradient,
         report.range[0],
@@ -163,5 +264,5 @@ fn tell(contoured: &Contoured, messages: &Messages) {
         report.resolution.spacing,
         lines.lines.len(),
         lines.points.len(),
-    ));
+    )
 }

@@ -3,32 +3,64 @@
 use std::io::{self, Write};
 
 use anyhow::Result;
-use vtu2contour::contour::CellRanges;
-use vtu2contour::filter::{ContourOptions, FilterError, GradientOrigin, Interpolated, Solution};
-use vtu2contour::simplices::{CellCounts, lagrange_grid};
-use vtu2contour::vtk::{Attributes, DataArray, Description, Selection, UnstructuredGrid, VtuFile};
+use vtu2contour::filter::ContourOptions;
+use vtu2contour::simplices::CellCounts;
+use vtu2contour::vtk::{Attributes, DataArray, Description, UnstructuredGrid};
 
 use super::arguments::InfoArguments;
+use super::input::{Arrays, Input, Part};
+use super::plan::Plan;
 
 /// Runs the job. A reader of the output who has seen enough is no error.
 pub fn run(arguments: &InfoArguments) -> Result<()> {
-    let file = VtuFile::open(&arguments.input)?;
-    let description = file.description()?;
-    let grid = file.read(&Selection::All)?.data;
+    let input = Input::open(&arguments.input, arguments.scalars.time, false)?;
     let mut text = Vec::new();
     writeln!(text, "{}", arguments.input.display())?;
-    write_size(&mut text, &description, &grid)?;
-    write_arrays(&mut text, "point arrays", &grid.point_data)?;
-    write_arrays(&mut text, "cell arrays", &grid.cell_data)?;
-    write_arrays(&mut text, "field arrays", &grid.field_data)?;
-    for warning in &description.warnings {
-        writeln!(text, "note: {warning}")?;
+    if input.is_series() {
+        write_series(&mut text, &input)?;
     }
-    write_contour(&mut text, &grid, &arguments.scalars.options())?;
+    if let Some(first) = input.parts.first() {
+        write_grid(&mut text, &input, first)?;
+    }
+    write_contour(&mut text, &input, &arguments.scalars.options())?;
     match io::stdout().write_all(&text) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => Ok(result?),
     }
+}
+
+/// The files of a series and their times.
+fn write_series(text: &mut Vec<u8>, input: &Input) -> io::Result<()> {
+    const ENDS: usize = 5;
+    let files = &input.parts;
+    writeln!(text, "  series, {}", counted(files.len(), "file"))?;
+    for (place, Part { entry, .. }) in files.iter().enumerate() {
+        if place == ENDS && files.len() > 2 * ENDS {
+            writeln!(text, "  ... {} more", files.len() - 2 * ENDS)?;
+        }
+        if place < ENDS || place + ENDS >= files.len() {
+            let time = entry.time.map_or("no time".to_owned(), |time| format!("time {time}"));
+            writeln!(text, "  {time}  {}", entry.file.display())?;
+        }
+    }
+    match &files[..] {
+        [first, _, ..] => writeln!(text, "first file, {}", first.entry.file.display()),
+        _ => Ok(()),
+    }
+}
+
+/// What is in one file.
+fn write_grid(text: &mut Vec<u8>, input: &Input, part: &Part) -> Result<()> {
+    let description = input.describe(part)?;
+    let grid = input.read(part, Arrays::All)?.data;
+    write_size(text, &description, &grid)?;
+    write_arrays(text, "point arrays", &grid.point_data)?;
+    write_arrays(text, "cell arrays", &grid.cell_data)?;
+    write_arrays(text, "field arrays", &grid.field_data)?;
+    for warning in &description.warnings {
+        writeln!(text, "note: {warning}")?;
+    }
+    Ok(())
 }
 
 fn write_size(
@@ -37,14 +69,13 @@ fn write_size(
     grid: &UnstructuredGrid,
 ) -> io::Result<()> {
     let cells: CellCounts = grid.types.iter().copied().collect();
-    let pieces = description.pieces.len();
+    let pieces = counted(description.pieces.len(), "piece");
     let version = &description.version;
     writeln!(
         text,
-        "  {} points, {} cells ({cells}), {pieces} piece{}, format version {}",
+        "  {} points, {} cells ({cells}), {pieces}, format version {}",
         grid.points.tuples(),
         cells.total(),
-        if pieces == 1 { "" } else { "s" },
         if version.is_empty() { "not given" } else { version },
     )?;
     let axes = ["x", "y", "z"].iter().enumerate().filter_map(|(n, axis)| {
@@ -107,49 +138,16 @@ fn span(low: f64, high: f64) -> String {
     if low == high { format!("{low:?}") } else { format!("{low:?} to {high:?}") }
 }
 
-fn write_contour(
-    text: &mut Vec<u8>,
-    grid: &UnstructuredGrid,
-    options: &ContourOptions,
-) -> io::Result<()> {
+/// What would be contoured.
+fn write_contour(text: &mut Vec<u8>, input: &Input, options: &ContourOptions) -> Result<()> {
     writeln!(text, "contour")?;
-    match plan(grid, options) {
-        Ok(lines) => lines.iter().try_for_each(|line| writeln!(text, "  {line}")),
-        Err(error) => writeln!(text, "  {error}"),
-    }
+    let plan = Plan::new(input, options)?;
+    plan.lines(options, input.parts.len())
+        .iter()
+        .try_for_each(|line| writeln!(text, "  {line}"))?;
+    Ok(())
 }
 
-/// What would be contoured, a line each.
-fn plan(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Vec<String>, FilterError> {
-    let grid = lagrange_grid(grid);
-    let solution = Solution::new(&grid, options)?;
-    let Interpolated { cubics, .. } = solution.interpolant(options.predictor);
-    let ranges = CellRanges::new(cubics.as_ref());
-    let [low, high] = solution.range(&ranges, cubics.as_ref())?;
-    let levels = options.levels.resolve([low, high])?;
-    let gradient = match &solution.gradients.origin {
-        GradientOrigin::Array(name) => name.clone(),
-        other => other.to_string(),
-    };
-    let mut lines = vec![
-        format!("array     {}", solution.chosen.label()),
-        format!("gradient  {gradient}"),
-        format!("cells     {} triangles", solution.triangles.mesh.triangles().len()),
-        format!("range     {low:?} to {high:?}"),
-    ];
-    if let (Some(first), Some(last)) = (levels.first(), levels.last()) {
-        lines.push(format!("levels    {} by default, from {first:?} to {last:?}", levels.len()));
-    }
-    if solution.left_out.total() > 0 {
-        lines.push(format!("left out  {}", solution.left_out));
-    }
-    let solids = solution.solids();
-    if solids.total() > 0 {
-        lines.push(format!("left out  {solids} (only two-dimensional cells are contoured)"));
-    }
-    if ranges.unusable() > 0 {
-        lines.push(format!("left out  {} triangles with values not finite", ranges.unusable()));
-    }
-    lines.extend(solution.gradients.warning.iter().map(|warning| format!("note      {warning}")));
-    Ok(lines)
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -6,8 +6,14 @@
 mod arguments;
 mod contour;
 mod info;
+mod input;
+#[cfg(unix)]
+mod interruptions;
 mod messages;
+mod output;
+mod plan;
 mod stats;
+mod warnings;
 
 use std::process::ExitCode;
 
@@ -18,6 +24,11 @@ use arguments::{Cli, Command};
 /// Runs the command line of this process.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
+    #[cfg(unix)]
+    if let Err(error) = interruptions::watch() {
+        messages::error(&error);
+        return ExitCode::FAILURE;
+    }
     let done = match cli.command {
         None => contour::run(&cli.contour),
         Some(Command::Contour(arguments)) => contour::run(&arguments),

@@ -1,29 +1,54 @@
 //! Counts and times of a job, for `--stats`.
 
+use std::io::Write;
+use std::ops::AddAssign;
 use std::time::Instant;
 
+use anyhow::Result;
 use serde::Serialize;
-use vtu2contour::filter::{Contoured, GradientOrigin, Stage};
+use vtu2contour::filter::{Contoured, GradientOrigin, Stage, level_warning};
+use vtu2contour::vtk::{AtomicFile, ClosedFile, PvdEntry};
 
-/// Counts and times of a contouring.
-#[derive(Debug, Serialize)]
+/// Counts and times of a contouring, of all parts of the input together.
+#[derive(Debug, Default, Serialize)]
 pub struct Stats {
     array: String,
-    /// The gradient's array; null if it came from elsewhere.
+    levels: Vec<f64>,
+    #[serde(flatten)]
+    all: Counts,
+    seconds: Seconds,
+    /// Each part, where there are several: the steps of a series, or pieces.
+    #[serde(skip_serializing_if = "is_single")]
+    parts: Vec<PartStats>,
+}
+
+/// What was done with one part of the input.
+#[derive(Debug, Serialize)]
+struct PartStats {
+    file: String,
+    time: Option<f64>,
+    #[serde(flatten)]
+    counts: Counts,
+}
+
+/// What was done with a part, or with all.
+#[derive(Clone, Debug, Default, Serialize)]
+struct Counts {
+    /// The gradient's array; null if it came from elsewhere, or if parts differ.
     gradient: Option<String>,
     /// `array`, `cells`, `recovered` or `unused`.
     gradient_origin: &'static str,
     range: [f64; 2],
-    levels: Vec<f64>,
+    /// The greatest of all parts; null without a limit.
     tolerance: Option<f64>,
+    /// The greatest of all parts; null without a limit.
     spacing: Option<f64>,
     cells: Cells,
     output: Output,
-    seconds: Seconds,
 }
 
 /// What became of the cells.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Cells {
     triangles: usize,
     /// Triangles that hold a level, summed over the levels.
@@ -43,7 +68,7 @@ struct Cells {
     singular_pde: usize,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Output {
     points: usize,
     lines: usize,
@@ -53,6 +78,8 @@ struct Output {
 /// Wall-clock seconds of each stage.
 #[derive(Debug, Default, Serialize)]
 pub struct Seconds {
+    /// Looking for the range of all parts; 0 where there was no need to.
+    range: f64,
     read: f64,
     field: f64,
     interpolant: f64,
@@ -64,7 +91,9 @@ pub struct Seconds {
 /// What takes time.
 #[derive(Clone, Copy, Debug)]
 pub enum Step {
-    /// Reading the file.
+    /// Looking for the range of all parts.
+    Range,
+    /// Reading a file.
     Read,
     /// A stage of the filter.
     Filter(Stage),
@@ -90,6 +119,7 @@ impl Clock {
         let elapsed = self.since.elapsed().as_secs_f64();
         let seconds = &mut self.seconds;
         *match self.step {
+            Step::Range => &mut seconds.range,
             Step::Read => &mut seconds.read,
             Step::Filter(Stage::Field) => &mut seconds.field,
             Step::Filter(Stage::Interpolant) => &mut seconds.interpolant,
@@ -108,13 +138,50 @@ impl Clock {
 }
 
 impl Stats {
-    /// The times of the job.
-    pub fn with_times(self, seconds: Seconds) -> Self {
-        Self { seconds, ..self }
+    /// Adds what was done with a part.
+    pub fn add(&mut self, part: &PvdEntry, contoured: &Contoured) {
+        let counts = Counts::new(contoured);
+        if self.parts.is_empty() {
+            self.array.clone_from(&contoured.report.label);
+            self.levels.clone_from(&contoured.lines.levels);
+            self.all = counts.clone();
+        } else {
+            self.all += &counts;
+        }
+        self.parts.push(PartStats {
+            file: part.file.display().to_string(),
+            time: part.time,
+            counts,
+        });
     }
 
-    /// The counts of a contouring.
-    pub fn new(contoured: &Contoured) -> Self {
+    /// Whether nothing was contoured.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// What people should know about the levels.
+    pub fn level_warning(&self) -> Option<String> {
+        level_warning(&self.array, self.all.range, &self.levels)
+    }
+
+    /// Writes all of it, and the times of the job.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(self, mut file: AtomicFile, seconds: Seconds) -> Result<ClosedFile> {
+        serde_json::to_writer_pretty(&mut file, &Self { seconds, ..self })?;
+        writeln!(file)?;
+        Ok(file.close()?)
+    }
+}
+
+fn is_single(parts: &[PartStats]) -> bool {
+    parts.len() < 2
+}
+
+impl Counts {
+    fn new(contoured: &Contoured) -> Self {
         let Contoured { poly_data, lines, report, .. } = contoured;
         let (gradient, gradient_origin) = match &report.gradient {
             GradientOrigin::Array(name) => (Some(name.clone()), "array"),
@@ -124,11 +191,9 @@ impl Stats {
         };
         let limit = |value: f64| value.is_finite().then_some(value);
         Self {
-            array: report.label.clone(),
             gradient,
             gradient_origin,
             range: report.range,
-            levels: lines.levels.clone(),
             tolerance: limit(report.resolution.tolerance),
             spacing: limit(report.resolution.spacing),
             cells: Cells {
@@ -148,7 +213,33 @@ impl Stats {
                 lines: poly_data.lines.len(),
                 closed: lines.lines.iter().filter(|line| line.closed).count(),
             },
-            seconds: Seconds::default(),
         }
+    }
+}
+
+impl AddAssign<&Counts> for Counts {
+    fn add_assign(&mut self, part: &Counts) {
+        let greatest = |a: Option<f64>, b: Option<f64>| Some(a?.max(b?));
+        if self.gradient != part.gradient {
+            self.gradient = None;
+        }
+        self.range[0] = self.range[0].min(part.range[0]);
+        self.range[1] = self.range[1].max(part.range[1]);
+        self.tolerance = greatest(self.tolerance, part.tolerance);
+        self.spacing = greatest(self.spacing, part.spacing);
+        let (cells, more) = (&mut self.cells, &part.cells);
+        cells.triangles += more.triangles;
+        cells.active += more.active;
+        cells.subdivided += more.subdivided;
+        cells.unresolved += more.unresolved;
+        cells.touching += more.touching;
+        cells.coarse += more.coarse;
+        cells.skipped += more.skipped;
+        cells.not_finite += more.not_finite;
+        cells.ghosts += more.ghosts;
+        cells.singular_pde += more.singular_pde;
+        self.output.points += part.output.points;
+        self.output.lines += part.output.lines;
+        self.output.closed += part.output.closed;
     }
 }

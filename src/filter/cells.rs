@@ -33,7 +33,10 @@ pub struct Cells {
     pub folded: CellCounts,
 }
 
-/// Cells with this bit in `vtkGhostType` belong to another process.
+/// VTK's name of the cell array that marks ghosts.
+pub const GHOSTS: &str = "vtkGhostType";
+
+/// Cells with this bit in [`GHOSTS`] belong to another process.
 const DUPLICATE: u8 = 1;
 
 impl Cells {
@@ -73,7 +76,7 @@ impl<const CORNERS: usize> Part<CORNERS> {
 
 /// Whether the grid marks a cell as one of another process, which contours it.
 pub fn is_ghost(grid: &UnstructuredGrid, cell: u32) -> bool {
-    let ghost = grid.cell_data.get("vtkGhostType").map(|array| &array.values);
+    let ghost = grid.cell_data.get(GHOSTS).map(|array| &array.values);
     match ghost {
         Some(Values::U8(flags)) => {
             flags.get(cell as usize).is_some_and(|flag| flag & DUPLICATE != 0)

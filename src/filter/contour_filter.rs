@@ -47,7 +47,8 @@ pub struct Report {
     pub counts: Counts,
     /// How fine the lines are.
     pub resolution: Resolution,
-    /// One line each.
+    /// One line each. What can be said only of all grids that share their levels is told by
+    /// [`level_warning`](super::level_warning()).
     pub warnings: Vec<String>,
 }
 
@@ -110,33 +111,18 @@ pub fn contour(
         resolution,
         warnings: solution.gradients.warning.into_iter().collect(),
     };
-    let report = report.with_warnings(&lines);
+    let report = report.with_warnings();
     Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })
 }
 
 impl Report {
     /// Adds what people should know, a line each.
-    fn with_warnings(mut self, lines: &ContourLines) -> Self {
+    fn with_warnings(mut self) -> Self {
         let mut warn = |condition: bool, text: String| {
             if condition {
                 self.warnings.push(text);
             }
         };
-        let [low, high] = self.range;
-        let outside = lines.levels.iter().filter(|&&level| level < low || level > high);
-        let outside: Vec<f64> = outside.copied().collect();
-        let label = &self.label;
-        warn(
-            !outside.is_empty(),
-            format!(
-                "no line at {}: outside the range {low:?} to {high:?} of '{label}'",
-                list(&outside)
-            ),
-        );
-        warn(
-            lines.levels.is_empty(),
-            format!("'{label}' is {low:?} everywhere: there is no level inside its range"),
-        );
         let Counts { unusable, unresolved, .. } = self.counts;
         warn(self.left_out.total() > 0, format!("left out: {}", self.left_out));
         warn(
@@ -169,15 +155,5 @@ impl Report {
             format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
         );
         self
-    }
-}
-
-/// Levels in a list that stays short.
-fn list(levels: &[f64]) -> String {
-    const SHOWN: usize = 5;
-    let shown: Vec<String> = levels.iter().take(SHOWN).map(|level| format!("{level:?}")).collect();
-    match levels.len().checked_sub(SHOWN) {
-        Some(more) if more > 0 => format!("{} and {more} more levels", shown.join(", ")),
-        _ => shown.join(", "),
     }
 }

@@ -81,3 +81,11 @@ pub enum FilterError {
     #[error("--pde cannot be used with the linear interpolant: leave one of them out")]
     LinearPde,
 }
+
+impl FilterError {
+    /// Whether the grid has nothing that could hold a contour. One of several grids may be
+    /// so; for a single one it is an error.
+    pub fn is_nothing_to_contour(&self) -> bool {
+        matches!(self, Self::NoTriangles { .. } | Self::NoValues { .. })
+    }
+}

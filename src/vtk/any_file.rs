@@ -5,7 +5,7 @@ use super::error::VtkError;
 use super::file_bytes::FileBytes;
 use super::legacy_reader::{LegacyData, LegacyFile, SIGNATURE};
 use super::poly_data::PolyData;
-use super::pvd_file;
+use super::pvd_file::{self, PvdFile};
 use super::pvtp_reader::PvtpFile;
 use super::pvtu_reader::PvtuFile;
 use super::reading::Loaded;
@@ -14,60 +14,51 @@ use super::unstructured_grid::UnstructuredGrid;
 use super::vtp_reader::VtpFile;
 use super::vtu_reader::VtuFile;
 use super::xml_file::XmlFile;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Reads a `.vtu`, `.pvtu`, `.vtp`, `.pvtp` or legacy `.vtk` file as a grid: the format is
-/// known by the file's content, not by its name. Vertices, lines, polygons and strips of
-/// surfaces become cells of the grid. Pieces are joined; for one piece at a time there is
-/// [`PvtuFile::pieces`].
+/// Reads a `.vtu`, `.pvtu`, `.vtp`, `.pvtp` or legacy `.vtk` file as a grid: see
+/// [`AnyFile::read`].
 ///
 /// # Errors
-/// [`VtkError::Series`]: the file is a `.pvd`, whose entries are read one by one. Else as
-/// the readers of the formats: [`VtuFile`], [`PvtuFile`], [`VtpFile`], [`PvtpFile`],
-/// [`LegacyFile`].
+/// As [`AnyFile::open`] and [`AnyFile::read`].
 pub fn read_grid(
     path: impl AsRef<Path>,
     selection: &Selection,
 ) -> Result<Loaded<UnstructuredGrid>, VtkError> {
-    match AnyFile::open(path.as_ref())? {
-        AnyFile::Vtu(file) => file.read(selection),
-        AnyFile::Pvtu(file) => file.read(selection),
-        AnyFile::Vtp(file) => file.read(selection).map(|loaded| loaded.map(PolyData::into_grid)),
-        AnyFile::Pvtp(file) => file.read(selection).map(|loaded| loaded.map(PolyData::into_grid)),
-        AnyFile::Legacy(file) => {
-            file.read(selection).map(|loaded| loaded.map(LegacyData::into_grid))
-        }
-    }
-}
-
-/// What is in a file that [`read_grid`] reads. Nothing is decoded; of a `.pvtu` or `.pvtp`
-/// every piece is opened.
-///
-/// # Errors
-/// As [`read_grid`].
-pub fn describe(path: impl AsRef<Path>) -> Result<Description, VtkError> {
-    match AnyFile::open(path.as_ref())? {
-        AnyFile::Vtu(file) => file.description(),
-        AnyFile::Pvtu(file) => file.description(),
-        AnyFile::Vtp(file) => file.description(),
-        AnyFile::Pvtp(file) => file.description(),
-        AnyFile::Legacy(file) => Ok(file.description()),
-    }
+    AnyFile::open(path)?.read(selection)
 }
 
 /// An open file of any format.
+#[derive(Debug)]
 #[allow(clippy::large_enum_variant)] // there is one of it, for a moment
-enum AnyFile {
+pub enum AnyFile {
+    /// An unstructured grid.
     Vtu(VtuFile),
+    /// The list of the pieces of an unstructured grid.
     Pvtu(PvtuFile),
+    /// Polygonal data.
     Vtp(VtpFile),
+    /// The list of the pieces of polygonal data.
     Pvtp(PvtpFile),
+    /// Either, in the older format.
     Legacy(Box<LegacyFile>),
+    /// A series of files.
+    Pvd(PvdFile),
 }
 
 impl AnyFile {
-    fn open(path: &Path) -> Result<Self, VtkError> {
-        let bytes = FileBytes::open(path)?;
+    /// Opens a file. The format is known by the file's content, not by its name.
+    ///
+    /// # Errors
+    /// As the readers of the formats: [`VtuFile`], [`PvtuFile`], [`VtpFile`], [`PvtpFile`],
+    /// [`LegacyFile`], [`PvdFile`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, VtkError> {
+        let path = path.as_ref();
+        Self::parse(path, FileBytes::open(path)?)
+    }
+
+    /// Takes the bytes of a file. `path` stands for its name in messages.
+    pub(super) fn parse(path: &Path, bytes: FileBytes) -> Result<Self, VtkError> {
         if bytes.starts_with(SIGNATURE) {
             return LegacyFile::parse(path, bytes).map(|file| Self::Legacy(Box::new(file)));
         }
@@ -77,10 +68,75 @@ impl AnyFile {
             "PUnstructuredGrid" => file.try_into().map(Self::Pvtu),
             "PolyData" => file.try_into().map(Self::Vtp),
             "PPolyData" => file.try_into().map(Self::Pvtp),
-            pvd_file::KIND => Err(VtkError::Series { path: path.to_owned() }),
-            _ => file.try_into().map(Self::Vtu),
+            pvd_file::KIND => file.try_into().map(Self::Pvd),
+            "UnstructuredGrid" => file.try_into().map(Self::Vtu),
+            _ => Err(VtkError::NoGrid { path: path.to_owned(), found: kind }),
         }
     }
+
+    /// Decodes a grid. Vertices, lines, polygons and strips of surfaces become cells of the
+    /// grid; pieces are joined.
+    ///
+    /// # Errors
+    /// [`VtkError::Series`]: the file is a `.pvd`, whose entries are read one by one. Else as
+    /// the readers of the formats.
+    pub fn read(&self, selection: &Selection) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+        match self {
+            Self::Vtu(file) => file.read(selection),
+            Self::Pvtu(file) => file.read(selection),
+            Self::Vtp(file) => file.read(selection).map(surface),
+            Self::Pvtp(file) => file.read(selection).map(surface),
+            Self::Legacy(file) => {
+                file.read(selection).map(|loaded| loaded.map(LegacyData::into_grid))
+            }
+            Self::Pvd(file) => Err(file.no_grid()),
+        }
+    }
+
+    /// Decodes one piece of a `.pvtu` or `.pvtp`, with the field data of the list.
+    ///
+    /// # Errors
+    /// The piece cannot be opened, or as [`read`](Self::read).
+    pub fn read_piece(
+        &self,
+        index: usize,
+        selection: &Selection,
+    ) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+        match self {
+            Self::Pvtu(file) => file.read_piece(index, selection),
+            Self::Pvtp(file) => file.read_piece(index, selection).map(surface),
+            _ => self.read(selection),
+        }
+    }
+
+    /// The files of the pieces of a `.pvtu` or `.pvtp`; none of other files.
+    pub fn piece_paths(&self) -> &[PathBuf] {
+        match self {
+            Self::Pvtu(file) => file.piece_paths(),
+            Self::Pvtp(file) => file.piece_paths(),
+            _ => &[],
+        }
+    }
+
+    /// What is in the file. Nothing is decoded; of a `.pvtu` or `.pvtp` every piece is
+    /// opened.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn description(&self) -> Result<Description, VtkError> {
+        match self {
+            Self::Vtu(file) => file.description(),
+            Self::Pvtu(file) => file.description(),
+            Self::Vtp(file) => file.description(),
+            Self::Pvtp(file) => file.description(),
+            Self::Legacy(file) => Ok(file.description()),
+            Self::Pvd(file) => Err(file.no_grid()),
+        }
+    }
+}
+
+fn surface(loaded: Loaded<PolyData>) -> Loaded<UnstructuredGrid> {
+    loaded.map(PolyData::into_grid)
 }
 
 #[cfg(test)]
@@ -123,17 +179,19 @@ mod tests {
             let grid = read_grid(&path, &Selection::All).unwrap().data;
             assert_eq!(grid.points.values, vec![1f32, 2.0, 3.0].into(), "{name}");
             assert_eq!((grid.cells.connectivity(), &grid.types[..]), (&[0i64][..], &[1u8][..]));
-            let description = describe(&path).unwrap();
+            let description = AnyFile::open(&path).unwrap().description().unwrap();
             assert_eq!((description.points(), description.cells()), (1, 1), "{name}");
         }
         let error = |name: &str| {
             let path = folder.path().join(name);
+            let described = AnyFile::open(&path).and_then(|file| file.description());
             let error = read_grid(&path, &Selection::All).unwrap_err();
-            assert_eq!(error.to_string(), describe(&path).unwrap_err().to_string());
+            assert_eq!(error.to_string(), described.unwrap_err().to_string());
             error
         };
         assert!(matches!(error("5"), VtkError::Series { .. }));
-        assert!(error("6").to_string().contains("holds a VTK ImageData"));
+        let message = error("6").to_string();
+        assert!(message.contains("holds a VTK ImageData, neither a grid nor"), "{message}");
         assert!(matches!(error("7"), VtkError::Read { .. }));
     }
 }

@@ -10,8 +10,9 @@ use std::io::{self, Read, Write};
 /// dictionary of the highest preset (64 MiB) and what the decoder needs besides.
 const LZMA_MEMORY: u32 = 66 << 10;
 
-/// The LZMA preset for writing, VTK's own default.
-const LZMA_PRESET: u32 = 5;
+/// The LZMA preset for writing. VTK takes 5; with our larger blocks 4 is chosen for speed,
+/// and makes smaller files still.
+const LZMA_PRESET: u32 = 4;
 
 /// A compressor of VTK's files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +60,9 @@ impl Compressor {
     /// to compress well. A whole number of values of any type.
     pub(super) fn block_size(self) -> usize {
         match self {
-            // Below 64 KiB, the encoder's table has words of half the size.
+            // Below 64 KiB, the encoder's table has words of half the size. (VTK asks its
+            // encoder for an acceleration of 5, which ours has not: a little larger files,
+            // a tenth faster on one thread.)
             Self::Lz4 => (1 << 16) - 8,
             Self::Zlib | Self::Lzma => 1 << 18,
         }

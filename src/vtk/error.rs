@@ -26,11 +26,20 @@ pub enum VtkError {
     NotXml { path: PathBuf },
 
     /// The file holds another kind of data.
-    #[error("'{}' holds a VTK {}, but a {expected} is expected", file(path), line(found))]
+    #[error("'{}' holds a VTK {}, but {expected} is expected", file(path), line(found))]
     OtherType { path: PathBuf, found: String, expected: &'static str },
 
+    /// The file holds neither a grid nor a surface.
+    #[error(
+        "'{}' holds a VTK {}, neither a grid nor a surface: {}",
+        file(path),
+        line(found),
+        cure(found)
+    )]
+    NoGrid { path: PathBuf, found: String },
+
     /// A file that another one lists cannot be read.
-    #[error("'{}' lists a piece that cannot be read: {problem}", file(path))]
+    #[error("'{}' lists a file that cannot be read: {problem}", file(path))]
     Piece { path: PathBuf, problem: Box<VtkError> },
 
     /// The file lists the files of a series.
@@ -195,6 +204,17 @@ pub enum LegacyProblem {
 
     #[error("data of {found} {what}, where the file has {expected}")]
     Tuples { what: &'static str, found: usize, expected: usize },
+}
+
+/// How to make a grid of other data.
+fn cure(found: &str) -> &'static str {
+    if found.contains("MultiBlock") || found.contains("Partitioned") || found.contains("Overlap") {
+        "read the files that it lists one by one, or join them, for example with ParaView's \
+         Merge Blocks"
+    } else {
+        "convert it, for example with `python -c \"import pyvista; \
+         pyvista.read('IN').cast_to_unstructured_grid().save('OUT.vtu')\"`"
+    }
 }
 
 /// How many characters of a text, and how many names, a message shows.

@@ -6,6 +6,7 @@ use super::data_array::DataArray;
 use super::error::{ArrayError, VtkError, line};
 use super::joined_array::{JoinedArray, OpenArray, PartHead};
 use super::section::Section;
+use super::selection::Choice;
 use super::xml_file::Budget;
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -85,29 +86,24 @@ impl<'a> JoinedSection<'a> {
         left_out.chain(self.repeated.iter().map(repeated)).collect()
     }
 
-    /// Keeps the arrays of these names, all for `None`.
+    /// Keeps the arrays that are chosen.
     ///
     /// # Errors
-    /// A name that is missing or cannot be used.
-    pub(super) fn select(
-        mut self,
-        path: &Path,
-        names: Option<&[String]>,
-    ) -> Result<Self, VtkError> {
-        let Some(names) = names else {
-            return Ok(self);
-        };
-        for name in names {
-            if !self.arrays.iter().any(|array| array.name == *name) {
+    /// A name that must be there is missing or cannot be used.
+    pub(super) fn select(mut self, path: &Path, choice: Choice<'_>) -> Result<Self, VtkError> {
+        if let Choice::Named(names) = choice {
+            let is_there = |name: &&String| self.arrays.iter().any(|array| array.name == **name);
+            if let Some(name) = names.iter().find(|name| !is_there(name)) {
                 return Err(self.missing(path, name));
             }
+            self.named = true;
+            // Whoever names arrays need not hear about others.
+            self.unusable.clear();
         }
-        self.named = true;
-        self.arrays.retain(|array| names.contains(&array.name));
+        self.arrays.retain(|array| choice.has(&array.name));
         self.active = self.known_roles(&self.active);
-        // Whoever names arrays need not hear about others.
-        self.unusable.clear();
-        self.repeated.retain(|name| names.contains(name));
+        self.unusable.retain(|(name, _)| choice.has(name));
+        self.repeated.retain(|name| choice.has(name));
         Ok(self)
     }
 

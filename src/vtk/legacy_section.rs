@@ -4,6 +4,7 @@ use super::attributes::{AttributeKind, Attributes};
 use super::description::ArrayInfo;
 use super::error::{VtkError, line};
 use super::legacy_array::LegacyArray;
+use super::selection::Choice;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::Path;
@@ -94,27 +95,23 @@ impl LegacySection {
         self.arrays.iter().map(info).collect()
     }
 
-    /// Keeps the arrays of these names, all for `None`.
+    /// Keeps the arrays that are chosen.
     ///
     /// # Errors
-    /// A name that is missing or cannot be used.
-    pub(super) fn select(
-        mut self,
-        path: &Path,
-        names: Option<&[String]>,
-    ) -> Result<Self, VtkError> {
-        let Some(names) = names else {
-            return Ok(self);
-        };
-        let is_there = |name: &&String| self.arrays.iter().any(|array| array.name == **name);
-        if let Some(name) = names.iter().find(|name| !is_there(name)) {
-            return Err(self.missing(path, name));
+    /// A name that must be there is missing or cannot be used.
+    pub(super) fn select(mut self, path: &Path, choice: Choice<'_>) -> Result<Self, VtkError> {
+        if let Choice::Named(names) = choice {
+            let is_there = |name: &&String| self.arrays.iter().any(|array| array.name == **name);
+            if let Some(name) = names.iter().find(|name| !is_there(name)) {
+                return Err(self.missing(path, name));
+            }
+            // Whoever names arrays need not hear about others.
+            self.unusable.clear();
         }
-        self.arrays.retain(|array| names.contains(&array.name));
-        self.active.retain(|(_, name)| names.contains(name));
-        // Whoever names arrays need not hear about others.
-        self.unusable.clear();
-        self.repeated.retain(|name| names.contains(name));
+        self.arrays.retain(|array| choice.has(&array.name));
+        self.active.retain(|(_, name)| choice.has(name));
+        self.unusable.retain(|(name, _)| choice.has(name));
+        self.repeated.retain(|name| choice.has(name));
         Ok(self)
     }
 

@@ -21,10 +21,10 @@ pub fn write_pvtu<P: AsRef<Path>>(
     pieces: &[P],
     declaration: &Declaration,
 ) -> Result<(), VtkError> {
-    write_list(path.as_ref(), "PUnstructuredGrid", |xml| {
-        declare(xml, declaration)?;
-        name_pieces(xml, path.as_ref(), pieces)
-    })
+    let list = path.as_ref();
+    let mut file = AtomicFile::create(list)?;
+    write_pieces(&mut file, "PUnstructuredGrid", list, pieces, declaration)?;
+    file.commit()
 }
 
 /// Writes a `.pvtp` file: the list of the `.vtp` files that are the pieces of a surface,
@@ -37,10 +37,23 @@ pub fn write_pvtp<P: AsRef<Path>>(
     pieces: &[P],
     declaration: &Declaration,
 ) -> Result<(), VtkError> {
-    write_list(path.as_ref(), "PPolyData", |xml| {
-        declare(xml, declaration)?;
-        name_pieces(xml, path.as_ref(), pieces)
-    })
+    let mut file = AtomicFile::create(&path)?;
+    write_pvtp_to(&mut file, path, pieces, declaration)?;
+    file.commit()
+}
+
+/// Writes the bytes of a `.pvtp` file. `list` is the path it will have: pieces are named
+/// relative to it.
+///
+/// # Errors
+/// As [`write_pvtu`].
+pub fn write_pvtp_to<P: AsRef<Path>>(
+    out: impl Write,
+    list: impl AsRef<Path>,
+    pieces: &[P],
+    declaration: &Declaration,
+) -> Result<(), VtkError> {
+    write_pieces(out, "PPolyData", list.as_ref(), pieces, declaration)
 }
 
 /// Writes a `.pvd` file: the list of the files of a series, which appears whole or not at
@@ -49,34 +62,56 @@ pub fn write_pvtp<P: AsRef<Path>>(
 /// # Errors
 /// As [`write_pvtu`].
 pub fn write_pvd(path: impl AsRef<Path>, entries: &[PvdEntry]) -> Result<(), VtkError> {
-    write_list(path.as_ref(), "Collection", |xml| {
-        entries.iter().try_for_each(|entry| write_entry(xml, path.as_ref(), entry))
+    let mut file = AtomicFile::create(&path)?;
+    write_pvd_to(&mut file, path, entries)?;
+    file.commit()
+}
+
+/// Writes the bytes of a `.pvd` file. `list` is the path it will have: files are named
+/// relative to it.
+///
+/// # Errors
+/// As [`write_pvtu`].
+pub fn write_pvd_to(
+    out: impl Write,
+    list: impl AsRef<Path>,
+    entries: &[PvdEntry],
+) -> Result<(), VtkError> {
+    write_list(out, "Collection", &[], |xml| {
+        entries.iter().try_for_each(|entry| write_entry(xml, list.as_ref(), entry))
     })
 }
 
-type ListWriter<'a> = XmlWriter<'static, &'a mut AtomicFile>;
-
-fn write_list(
-    path: &Path,
+fn write_pieces<P: AsRef<Path>>(
+    out: impl Write,
     kind: &str,
-    fill: impl Fn(&mut ListWriter<'_>) -> io::Result<()>,
+    list: &Path,
+    pieces: &[P],
+    declaration: &Declaration,
 ) -> Result<(), VtkError> {
-    let mut file = AtomicFile::create(path)?;
-    let write = |file: &mut AtomicFile| {
-        let mut xml = XmlWriter::begin(file, kind, WriteOptions::default())?;
-        match kind {
-            "Collection" => xml.open(kind, &[])?,
-            _ => xml.open(kind, &[("GhostLevel", "0")])?,
-        }
+    write_list(out, kind, &[("GhostLevel", "0")], |xml| {
+        declare(xml, declaration)?;
+        name_pieces(xml, list, pieces)
+    })
+}
+
+fn write_list<W: Write>(
+    out: W,
+    kind: &str,
+    attributes: &[(&str, &str)],
+    fill: impl Fn(&mut XmlWriter<'static, W>) -> io::Result<()>,
+) -> Result<(), VtkError> {
+    let write = || {
+        let mut xml = XmlWriter::begin(out, kind, WriteOptions::default())?;
+        xml.open(kind, attributes)?;
         fill(&mut xml)?;
         xml.close(kind)?;
         xml.finish()?.flush()
     };
-    write(&mut file).map_err(VtkError::Write)?;
-    file.commit()
+    write().map_err(VtkError::Write)
 }
 
-fn declare(xml: &mut ListWriter<'_>, declaration: &Declaration) -> io::Result<()> {
+fn declare(xml: &mut XmlWriter<'static, impl Write>, declaration: &Declaration) -> io::Result<()> {
     declare_section(xml, "PPointData", &declaration.point_arrays)?;
     declare_section(xml, "PCellData", &declaration.cell_arrays)?;
     xml.open("PPoints", &[])?;
@@ -86,7 +121,7 @@ fn declare(xml: &mut ListWriter<'_>, declaration: &Declaration) -> io::Result<()
 }
 
 fn declare_section(
-    xml: &mut ListWriter<'_>,
+    xml: &mut XmlWriter<'static, impl Write>,
     section: &str,
     arrays: &[ArrayInfo],
 ) -> io::Result<()> {
@@ -109,7 +144,7 @@ fn declare_section(
 }
 
 fn name_pieces<P: AsRef<Path>>(
-    xml: &mut ListWriter<'_>,
+    xml: &mut XmlWriter<'static, impl Write>,
     list: &Path,
     pieces: &[P],
 ) -> io::Result<()> {
@@ -119,7 +154,11 @@ fn name_pieces<P: AsRef<Path>>(
     Ok(())
 }
 
-fn write_entry(xml: &mut ListWriter<'_>, list: &Path, entry: &PvdEntry) -> io::Result<()> {
+fn write_entry(
+    xml: &mut XmlWriter<'static, impl Write>,
+    list: &Path,
+    entry: &PvdEntry,
+) -> io::Result<()> {
     let name = name_from(list, &entry.file)?;
     let time = entry.time.map(|time| time.to_string());
     let part = entry.part.to_string();

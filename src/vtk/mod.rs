@@ -1,7 +1,7 @@
 //! VTK's files: unstructured grids (`.vtu`, `.pvtu`), polygonal data (`.vtp`, `.pvtp`),
 //! series (`.pvd`), and both kinds of data in the older format (`.vtk`).
 //!
-//! This floor knows formats, not mathematics. [`read_grid`] reads any of them. Reading XML
+//! This floor knows formats, not mathematics. [`AnyFile`] opens any of them. Reading XML
 //! takes every encoding VTK writes: ascii, inline base64, appended base64 and raw;
 //! uncompressed, zlib, LZ4 and LZMA; both widths of header words and both byte orders.
 //! [`VtuFile`] and [`VtpFile`] map a file, describe it without decoding anything, and decode
@@ -71,6 +71,7 @@ mod reading;
 mod scalar;
 mod section;
 mod selection;
+mod unfinished;
 mod unstructured_grid;
 mod values;
 mod vtp_reader;
@@ -83,9 +84,9 @@ mod xml;
 mod xml_file;
 mod xml_writer;
 
-pub use any_file::{describe, read_grid};
+pub use any_file::{AnyFile, read_grid};
 pub use array_type::ArrayType;
-pub use atomic_file::AtomicFile;
+pub use atomic_file::{AtomicFile, ClosedFile};
 pub use attributes::{AttributeKind, Attributes};
 pub use cell_array::CellArray;
 pub use data_array::DataArray;
@@ -93,7 +94,7 @@ pub use declaration::Declaration;
 pub use description::{ArrayInfo, Description};
 pub use error::{ArrayError, LegacyProblem, VtkError};
 pub use legacy_reader::{LegacyData, LegacyFile};
-pub use list_writer::{write_pvd, write_pvtp, write_pvtu};
+pub use list_writer::{write_pvd, write_pvd_to, write_pvtp, write_pvtp_to, write_pvtu};
 pub use piece::PieceCounts;
 pub use poly_data::PolyData;
 pub use polyhedra::Polyhedra;
@@ -102,6 +103,7 @@ pub use pvtp_reader::PvtpFile;
 pub use pvtu_reader::PvtuFile;
 pub use reading::Loaded;
 pub use selection::Selection;
+pub use unfinished::{OutputFolder, abandon_unfinished_files};
 pub use unstructured_grid::UnstructuredGrid;
 pub use values::Values;
 pub use vtp_reader::VtpFile;

@@ -1,5 +1,6 @@
 //! Series of files, each at its time (`.pvd`).
 
+use super::any_file::AnyFile;
 use super::error::VtkError;
 use super::file_bytes::FileBytes;
 use super::file_names::beside;
@@ -10,6 +11,7 @@ use std::path::{Path, PathBuf};
 /// A `.pvd` file: which file holds the data of which time. None of them is opened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PvdFile {
+    path: PathBuf,
     entries: Vec<PvdEntry>,
 }
 
@@ -59,6 +61,28 @@ impl PvdFile {
     pub fn entries(&self) -> &[PvdEntry] {
         &self.entries
     }
+
+    /// Opens the file of an entry.
+    ///
+    /// # Errors
+    /// [`VtkError::Piece`]: it cannot be read, or is a series itself.
+    pub fn open_entry(&self, entry: &PvdEntry) -> Result<AnyFile, VtkError> {
+        let opened = FileBytes::open_regular(&entry.file)
+            .and_then(|bytes| AnyFile::parse(&entry.file, bytes))
+            .and_then(|file| match file {
+                AnyFile::Pvd(series) => Err(series.no_grid()),
+                other => Ok(other),
+            });
+        opened.map_err(|problem| VtkError::Piece {
+            path: self.path.clone(),
+            problem: Box::new(problem),
+        })
+    }
+
+    /// Why a series is not read as one grid.
+    pub(super) fn no_grid(&self) -> VtkError {
+        VtkError::Series { path: self.path.clone() }
+    }
 }
 
 impl TryFrom<XmlFile> for PvdFile {
@@ -68,7 +92,7 @@ impl TryFrom<XmlFile> for PvdFile {
         let file = file.expect(KIND)?;
         let nodes = file.data_set()?.children().filter(|node| node.name() == "DataSet");
         let entries = nodes.map(|node| entry(&file, node)).collect::<Result<_, _>>()?;
-        Ok(Self { entries })
+        Ok(Self { path: file.path().to_owned(), entries })
     }
 }
 

@@ -83,6 +83,19 @@ impl PvtpFile {
         Ok(loaded)
     }
 
+    /// Decodes one piece, with the field data of the list where it has any.
+    ///
+    /// # Errors
+    /// The piece cannot be opened; or as [`VtpFile::read`].
+    pub fn read_piece(
+        &self,
+        index: usize,
+        selection: &Selection,
+    ) -> Result<Loaded<PolyData>, VtkError> {
+        let file = self.list.open_piece(index, VtpFile::try_from)?;
+        read_surfaces(&self.join(&[file])?, selection)
+    }
+
     fn join<'a>(&'a self, files: &'a [VtpFile]) -> Result<Pieces<'a>, VtkError> {
         let files: Vec<_> = files.iter().map(VtpFile::xml).collect();
         poly_data_pieces(self.list.file.path(), &files)?.with_field_of(&self.list.file)

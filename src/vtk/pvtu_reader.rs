@@ -83,6 +83,19 @@ impl PvtuFile {
         Ok(loaded)
     }
 
+    /// Decodes one piece, with the field data of the list where it has any.
+    ///
+    /// # Errors
+    /// The piece cannot be opened; or as [`VtuFile::read`].
+    pub fn read_piece(
+        &self,
+        index: usize,
+        selection: &Selection,
+    ) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+        let file = self.list.open_piece(index, VtuFile::try_from)?;
+        read_grids(&self.join(&[file])?, selection)
+    }
+
     fn join<'a>(&'a self, files: &'a [VtuFile]) -> Result<Pieces<'a>, VtkError> {
         let files: Vec<_> = files.iter().map(VtuFile::xml).collect();
         grid_pieces(self.list.file.path(), &files)?.with_field_of(&self.list.file)

@@ -189,9 +189,16 @@ fn check_signature(path: &Path, bytes: &[u8]) -> Result<(), VtkError> {
         [0x1F, 0x8B, ..] => "it is compressed with gzip; unpack it with gunzip",
         [0x89, b'H', b'D', b'F', ..] => "it is HDF5 (.vtkhdf); save it as .vtu in ParaView",
         _ if bytes.starts_with(b"# vtk DataFile") => return Err(VtkError::NotXml { path }),
-        _ => return Ok(()),
+        _ if is_xml(bytes) => return Ok(()),
+        _ => "it does not begin with an XML element",
     };
     Err(VtkError::NotVtk { path, found: found.to_owned() })
+}
+
+/// Whether the first of the bytes, after a mark of their order, is that of an element.
+fn is_xml(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    text.trim_ascii_start().starts_with(b"<")
 }
 
 fn xml_error(path: &Path, problem: XmlProblem) -> VtkError {
@@ -293,9 +300,15 @@ mod tests {
         assert!(message("").contains("empty"));
         assert!(message("# vtk DataFile Version 3.0\n").contains("legacy"));
         assert!(message("<html></html>").contains("<html>"));
-        assert!(message("hello").contains("not a VTK XML file"));
+        for text in ["hello", "# <VTKFile>", " ", "\u{feff}x"] {
+            assert!(message(text).contains("not a VTK XML file"), "{text}");
+        }
+        let grid = format!("\u{feff}\n{GRID}/>");
+        assert!(
+            XmlFile::parse_any(Path::new("x.vtu"), FileBytes::Owned(grid.into_bytes())).is_ok()
+        );
         let other = message("<VTKFile type='ImageData'></VTKFile>");
-        assert_eq!(other, "'x.vtu' holds a VTK ImageData, but a UnstructuredGrid is expected");
+        assert_eq!(other, "'x.vtu' holds a VTK ImageData, but UnstructuredGrid is expected");
     }
 
     #[test]

@@ -1,0 +1,169 @@
+//! What can be said on the command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use vtu2contour::filter::ContourOptions;
+
+mod groups;
+mod names;
+mod values;
+
+pub use groups::{
+    InterpolantArguments, LevelArguments, LineArguments, OutputArguments, RunArguments,
+    ScalarArguments,
+};
+pub use values::Time;
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+const EXAMPLES: &str = "\
+\x1b[1;32mExamples:\x1b[0m
+  Ten contour lines of the only scalar array, as a picture:
+    vtu2contour solution.vtu -o lines.svg
+
+  Three levels of array u for ParaView:
+    vtu2contour solution.vtu -o lines.vtp -a u -v 0.1,0.2,0.3
+
+  With the PDE that the solution satisfies, which makes the cubics fourth order:
+    vtu2contour solution.vtu -o lines.vtp --pde 'uxx + uyy = -k*u' --param k=20
+
+  Every step of a series at the same levels; lines.pvd lists lines/lines_0.vtp ...:
+    vtu2contour run.pvd -o lines.pvd -a u
+
+  One step of it, as a picture:
+    vtu2contour run.pvd -o last.svg -a u --time last
+
+  What is in a file, and what would be contoured:
+    vtu2contour info solution.vtu
+
+Without a gradient array (say where it is with -g) gradients are recovered from
+the values. 'vtu2contour --help' explains every option.";
+
+/// Contour lines of a finite-element solution, as accurate as its data.
+///
+/// Reads a grid or a surface of any of VTK's files with values and gradients at its points,
+/// makes one cubic polynomial of them in each triangle (the Differential Equation
+/// Interpolant), and draws the contour lines of these cubics: smooth lines from a
+/// coarse mesh, none missed, each point exactly on its level.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    styles = STYLES,
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    max_term_width = 100,
+)]
+pub struct Cli {
+    /// Another job than contouring.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+
+    /// Contouring, the job without a name.
+    #[command(flatten)]
+    pub contour: ContourArguments,
+}
+
+/// The jobs.
+#[derive(Debug, Subcommand)]
+#[allow(clippy::large_enum_variant)] // there is one of it in a run
+pub enum Command {
+    /// Draw contour lines (the same as leaving the word 'contour' out)
+    Contour(ContourArguments),
+    /// Tell what is in a file, and what would be contoured
+    Info(InfoArguments),
+    /// Print completions for a shell, to be sourced by it
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args)]
+pub struct InfoArguments {
+    /// The grid, surface or series (.vtu .pvtu .vtp .pvtp .vtk .pvd)
+    pub input: PathBuf,
+
+    #[command(flatten)]
+    pub scalars: ScalarArguments,
+}
+
+/// Arguments of `contour`.
+#[derive(Debug, Args)]
+pub struct ContourArguments {
+    // both are optional by type alone: with a subcommand they are not asked for
+    /// The grid or surface (.vtu .pvtu .vtp .pvtp .vtk), or a series of them (.pvd)
+    ///
+    /// What a file is is known by its content, not by its name. Pieces (.pvtu, .pvtp) are
+    /// joined, unless the output is a .pvtp.
+    #[arg(required = true)]
+    input: Option<PathBuf>,
+
+    /// The lines: .vtp for ParaView, VTK and pyvista, .vtu for tools that read no .vtp,
+    /// .svg for a picture; .pvd of a series, .pvtp in pieces
+    ///
+    /// A .pvd lists one .vtp for each file of the series, with its time. A .pvtp lists one
+    /// .vtp for each piece of a .pvtu or .pvtp, and the pieces are read one at a time. The
+    /// listed files are put in a folder beside the list: out.pvd lists out/out_0.vtp,
+    /// out/out_1.vtp and so on. All files appear together, or none.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub scalars: ScalarArguments,
+
+    #[command(flatten)]
+    pub levels: LevelArguments,
+
+    #[command(flatten)]
+    pub interpolant: InterpolantArguments,
+
+    #[command(flatten)]
+    pub lines: LineArguments,
+
+    #[command(flatten)]
+    pub output_options: OutputArguments,
+
+    #[command(flatten)]
+    pub running: RunArguments,
+}
+
+impl ContourArguments {
+    /// The file to read.
+    pub fn input(&self) -> &Path {
+        self.input.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The file to write.
+    pub fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// What the arguments ask the filter to do.
+    pub fn options(&self) -> ContourOptions {
+        let Self { levels, interpolant, lines, output_options, .. } = self;
+        ContourOptions {
+            levels: levels.levels(),
+            method: lines.method.into(),
+            spacing: lines.spacing,
+            tolerance: lines.tolerance,
+            interpolant: interpolant.interpolant.into(),
+            pde: interpolant.pde.clone(),
+            parameters: interpolant.parameters.clone(),
+            predictor: interpolant.predictor.into(),
+            single: output_options.single(),
+            segments: output_options.segments,
+            gradients: output_options.gradients,
+            normals: output_options.normals,
+            ..self.scalars.options()
+        }
+    }
+}

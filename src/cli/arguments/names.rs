@@ -1,0 +1,97 @@
+//! Names that options take.
+
+use clap::ValueEnum;
+use vtu2contour::contour::lines::Method;
+use vtu2contour::filter::InterpolantKind;
+use vtu2contour::interpolant::Predictor;
+use vtu2contour::vtk::Encoding;
+
+/// Names of the interpolants.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Interpolant {
+    /// The pure cubic interpolant
+    Pci,
+    /// Linear, as VTK's own filter
+    Linear,
+}
+
+/// Names of the predictors.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum PredictorName {
+    /// From the cubic that reproduces quadratics
+    Quadratic,
+    /// From the linear interpolant, as in the thesis
+    Linear,
+}
+
+/// Names of the methods.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MethodName {
+    /// Points on the contour, joined by straight lines
+    Intercept,
+    /// Curves y(x) or x(y)
+    Sode,
+    /// Curves by arc length
+    Odea,
+    /// Curves by arc length, as many as the tolerance asks for
+    Aodea,
+}
+
+/// Names of the encodings.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum EncodingName {
+    /// Bytes, appended
+    Raw,
+    /// Compressed by zlib, appended
+    Zlib,
+    /// Compressed by LZ4, appended
+    Lz4,
+    /// Compressed by LZMA, appended: slow, and the smallest
+    Lzma,
+    /// Base64 inside the XML
+    Base64,
+    /// Numbers as text
+    Ascii,
+}
+
+impl From<Interpolant> for InterpolantKind {
+    fn from(name: Interpolant) -> Self {
+        match name {
+            Interpolant::Pci => Self::Pci,
+            Interpolant::Linear => Self::Linear,
+        }
+    }
+}
+
+impl From<PredictorName> for Predictor {
+    fn from(name: PredictorName) -> Self {
+        match name {
+            PredictorName::Quadratic => Self::Quadratic,
+            PredictorName::Linear => Self::Linear,
+        }
+    }
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Intercept => Self::Intercept,
+            MethodName::Sode => Self::Sode,
+            MethodName::Odea => Self::Odea,
+            MethodName::Aodea => Self::Aodea,
+        }
+    }
+}
+
+impl From<EncodingName> for Encoding {
+    fn from(name: EncodingName) -> Self {
+        match name {
+            EncodingName::Raw => Self::Raw,
+            EncodingName::Zlib => Self::Zlib,
+            EncodingName::Lz4 => Self::Lz4,
+            EncodingName::Lzma => Self::Lzma,
+            EncodingName::Base64 => Self::Base64,
+            EncodingName::Ascii => Self::Ascii,
+        }
+    }
+}

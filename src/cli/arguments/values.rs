@@ -1,0 +1,61 @@
+//! Values that options take, read from text.
+
+use vtu2contour::filter::Component;
+
+/// A time of a series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Time {
+    /// The least.
+    First,
+    /// The greatest.
+    Last,
+    /// This one.
+    At(f64),
+}
+
+/// Reads a time: `first`, `last` or a number.
+pub fn time(text: &str) -> Result<Time, String> {
+    match text {
+        "first" => Ok(Time::First),
+        "last" => Ok(Time::Last),
+        number => level(number)
+            .map(Time::At)
+            .map_err(|_| "give a time of the series, 'first' or 'last'".to_owned()),
+    }
+}
+
+/// Reads a component: its number or `mag`.
+pub fn component(text: &str) -> Result<Component, String> {
+    match text {
+        "mag" => Ok(Component::Magnitude),
+        number => number
+            .parse()
+            .map(Component::Number)
+            .map_err(|_| "give the component's number, from 0, or 'mag'".to_owned()),
+    }
+}
+
+/// Reads a finite number.
+pub fn level(text: &str) -> Result<f64, String> {
+    let value: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if value.is_finite() { Ok(value) } else { Err("not a finite number".to_owned()) }
+}
+
+/// Reads a number above zero.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let value = level(text)?;
+    if value > 0.0 { Ok(value) } else { Err("not above zero".to_owned()) }
+}
+
+/// Reads `LO,HI`.
+pub fn range(text: &str) -> Result<[f64; 2], String> {
+    let (low, high) = text.split_once(',').ok_or("give two numbers, as LO,HI")?;
+    let (low, high) = (level(low)?, level(high)?);
+    if low < high { Ok([low, high]) } else { Err("LO must be below HI".to_owned()) }
+}
+
+/// Reads `NAME=V`.
+pub fn parameter(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("give a name and a number, as NAME=V")?;
+    Ok((name.trim().to_owned(), level(value)?))
+}

@@ -1,0 +1,200 @@
+//! What is contoured: one grid, the pieces of one, or the steps of a series.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow, bail};
+use vtu2contour::filter::{ContourOptions, FilterError, needed_arrays};
+use vtu2contour::vtk::{
+    AnyFile, Description, Loaded, PvdEntry, PvdFile, Selection, UnstructuredGrid, VtkError,
+};
+
+use super::arguments::Time;
+
+/// An open file, and which parts of it are contoured.
+pub struct Input {
+    path: PathBuf,
+    file: AnyFile,
+    /// The parts, at least one.
+    pub parts: Vec<Part>,
+    /// What all pieces have, where they are read one at a time.
+    whole: Option<Description>,
+    /// What people should know about the file as a whole.
+    pub warnings: Vec<String>,
+}
+
+/// One grid of an input.
+pub struct Part {
+    /// Its place among all parts of the file.
+    index: usize,
+    /// Its file and, in a series, its time.
+    pub entry: PvdEntry,
+}
+
+/// Which arrays a part is read with.
+#[derive(Clone, Copy)]
+pub enum Arrays<'a> {
+    /// All, for they travel along.
+    All,
+    /// Those that contouring needs.
+    Needed(&'a ContourOptions),
+}
+
+impl Input {
+    /// Opens a file. A series has its steps as parts, or those at a time; any other file has
+    /// one part, unless it is to be taken in pieces.
+    pub fn open(path: &Path, time: Option<Time>, in_pieces: bool) -> Result<Self> {
+        let file = AnyFile::open(path)?;
+        let is_series = matches!(file, AnyFile::Pvd(_));
+        if time.is_some() && !is_series {
+            bail!("'{}' is no series (.pvd): leave --time out", path.display());
+        }
+        let mut input = Self {
+            path: path.to_owned(),
+            parts: parts_of(path, &file, in_pieces),
+            file,
+            whole: None,
+            warnings: Vec::new(),
+        };
+        if let Some(time) = time {
+            input.choose(time)?;
+        }
+        if input.parts.is_empty() {
+            bail!("'{}' lists no file: there is nothing to contour", path.display());
+        }
+        if !is_series && in_pieces {
+            let whole = input.file.description()?;
+            input.warnings.clone_from(&whole.warnings);
+            input.whole = Some(whole);
+        }
+        Ok(input)
+    }
+
+    /// Whether the input is a series, or one step of it.
+    pub fn is_series(&self) -> bool {
+        matches!(self.file, AnyFile::Pvd(_))
+    }
+
+    /// Whether there are several parts, which share their levels.
+    pub fn is_several(&self) -> bool {
+        self.parts.len() > 1
+    }
+
+    /// Keeps the steps at one time, and those without a time, which belong to all.
+    fn choose(&mut self, time: Time) -> Result<()> {
+        let mut times: Vec<f64> = self.parts.iter().filter_map(|part| part.entry.time).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let found = match time {
+            Time::First => times.first(),
+            Time::Last => times.last(),
+            Time::At(time) => times.iter().find(|&&other| other == time),
+        };
+        let Some(&found) = found else {
+            bail!("'{}' has no step at that time; {}", self.path.display(), listed(&times, time));
+        };
+        self.parts.retain(|part| part.entry.time.is_none_or(|time| time == found));
+        Ok(())
+    }
+
+    /// Every file that is read, as far as lists name it.
+    ///
+    /// # Errors
+    /// If a file of a series is missing: better told before the work than after.
+    pub fn files(&self) -> Result<Vec<PathBuf>> {
+        let mut files = vec![self.path.clone()];
+        files.extend_from_slice(self.file.piece_paths());
+        if let AnyFile::Pvd(series) = &self.file {
+            for Part { entry, .. } in &self.parts {
+                files.push(entry.file.clone());
+                files.extend(pieces_of(series, entry)?);
+            }
+        }
+        Ok(files)
+    }
+
+    /// Decodes a part.
+    pub fn read(&self, part: &Part, arrays: Arrays) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+        match (&self.file, &self.whole) {
+            (AnyFile::Pvd(series), _) => read_file(&series.open_entry(&part.entry)?, arrays),
+            (file, None) => read_file(file, arrays),
+            (file, Some(whole)) => {
+                let selection = match arrays {
+                    Arrays::All => Selection::all_of(whole),
+                    Arrays::Needed(options) => needed_arrays(options, whole),
+                };
+                file.read_piece(part.index, &selection)
+            }
+        }
+    }
+
+    /// What is in a part; nothing is decoded.
+    pub fn describe(&self, part: &Part) -> Result<Description, VtkError> {
+        match &self.file {
+            AnyFile::Pvd(series) => series.open_entry(&part.entry)?.description(),
+            file => file.description(),
+        }
+    }
+
+    /// What messages call a part; nothing where there is only one.
+    pub fn name(&self, part: &Part) -> Option<String> {
+        let file = part.entry.file.display();
+        let time = part.entry.time.map_or(String::new(), |time| format!(" (time {time})"));
+        self.is_several().then(|| format!("'{file}'{time}"))
+    }
+
+    /// The error with the part's file; a PDE's with the place marked below.
+    pub fn explained(&self, part: &Part, error: &FilterError) -> anyhow::Error {
+        match error {
+            FilterError::Pde(problem) => anyhow!("{error}\n{}", problem.caret()),
+            _ => anyhow!("'{}': {error}", part.entry.file.display()),
+        }
+    }
+}
+
+fn read_file(file: &AnyFile, arrays: Arrays) -> Result<Loaded<UnstructuredGrid>, VtkError> {
+    match arrays {
+        Arrays::All => file.read(&Selection::All),
+        Arrays::Needed(options) => file.read(&needed_arrays(options, &file.description()?)),
+    }
+}
+
+fn parts_of(path: &Path, file: &AnyFile, in_pieces: bool) -> Vec<Part> {
+    let lone = |path: &Path| PvdEntry { file: path.to_owned(), ..PvdEntry::default() };
+    let entries = match file {
+        AnyFile::Pvd(series) => series.entries().to_vec(),
+        AnyFile::Pvtu(_) | AnyFile::Pvtp(_) if in_pieces => {
+            file.piece_paths().iter().map(|path| lone(path)).collect()
+        }
+        _ => vec![lone(path)],
+    };
+    entries.into_iter().enumerate().map(|(index, entry)| Part { index, entry }).collect()
+}
+
+/// The pieces of an entry that is a list itself.
+fn pieces_of(series: &PvdFile, entry: &PvdEntry) -> Result<Vec<PathBuf>, VtkError> {
+    let extension = entry.file.extension().and_then(|extension| extension.to_str());
+    let is_list = extension.is_some_and(|extension| extension.starts_with(['p', 'P']));
+    if entry.file.is_file() && !is_list {
+        return Ok(Vec::new());
+    }
+    Ok(series.open_entry(entry)?.piece_paths().to_vec())
+}
+
+/// What times there are, in a list that stays short.
+fn listed(times: &[f64], wanted: Time) -> String {
+    const SHOWN: usize = 10;
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return "its files have no times: leave --time out".to_owned();
+    };
+    if times.len() <= SHOWN {
+        let times: Vec<String> = times.iter().map(f64::to_string).collect();
+        return format!("its times are {}", times.join(", "));
+    }
+    let distance = |time: &&f64| match wanted {
+        Time::At(wanted) => (**time - wanted).abs(),
+        _ => 0.0,
+    };
+    let nearest = times.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = nearest.unwrap_or(first);
+    format!("it has {} times from {first} to {last}; the nearest is {nearest}", times.len())
+}

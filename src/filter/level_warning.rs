@@ -1,0 +1,40 @@
+//! Levels that have no contour.
+
+/// What people should know about levels, of all grids that were contoured at them: that
+/// the solution does not attain some, or is constant. `range` is that of all grids.
+pub fn level_warning(label: &str, [low, high]: [f64; 2], levels: &[f64]) -> Option<String> {
+    if levels.is_empty() {
+        let text = format!("'{label}' is {low:?} everywhere: there is no level inside its range");
+        return Some(text);
+    }
+    let outside = levels.iter().filter(|&&level| level < low || level > high);
+    let outside: Vec<f64> = outside.copied().collect();
+    (!outside.is_empty()).then(|| {
+        let outside = list(&outside);
+        format!("no line at {outside}: outside the range {low:?} to {high:?} of '{label}'")
+    })
+}
+
+/// Levels in a list that stays short.
+fn list(levels: &[f64]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = levels.iter().take(SHOWN).map(|level| format!("{level:?}")).collect();
+    match levels.len().checked_sub(SHOWN) {
+        Some(more) if more > 0 => format!("{} and {more} more levels", shown.join(", ")),
+        _ => shown.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_levels_outside_are_told() {
+        assert_eq!(level_warning("u", [0.0, 1.0], &[0.0, 0.5, 1.0]), None);
+        let text = level_warning("u", [0.0, 1.0], &[-1.0, 0.5, 2.0]).unwrap();
+        assert_eq!(text, "no line at -1.0, 2.0: outside the range 0.0 to 1.0 of 'u'");
+        let constant = level_warning("u", [3.0, 3.0], &[]).unwrap();
+        assert!(constant.starts_with("'u' is 3.0 everywhere"), "{constant}");
+    }
+}

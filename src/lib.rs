@@ -15,7 +15,7 @@
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
-//! | [`mesh`] | points, triangles, frames, neighbours |
+//! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours |
 //! | [`svg`] | pictures |
 //! | [`vtk`] | the VTK file formats |
 //! | [`bernstein`] | polynomials on simplices, their bounds and roots |

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use support::meshes::Random;
 use support::order::order;
 use support::polynomial::Polynomial;
-use support::problems_3d::{FIFTH, Problem};
+use support::problems_3d::{FIFTH, Problem, SEVENTH};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::bernstein::Barycentric4;
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
@@ -240,6 +240,44 @@ fn tetrahedra_without_volume_do_no_harm() {
     assert_eq!(tricubic.singular(), 3);
     for tetrahedron in 0..whole {
         assert!(tricubic.cubic(tetrahedron).coefficients.iter().all(|c| c.is_finite()));
+    }
+}
+
+/// A value that is not there spoils the tetrahedra around it and no other.
+#[test]
+fn missing_values_do_not_spread() {
+    let mesh = random_cube(&mut Random(17), 100);
+    let (mut values, gradients) = FIFTH.at_points(&mesh);
+    values[50] = f64::NAN;
+    let field = Field { values: &values, gradients: &gradients };
+    let pde = parse(FIFTH.pde);
+    let tricubic = Tricubic::with_pde(&mesh, field, &equation(&pde, &[]));
+    let around = mesh.tetrahedra().iter().filter(|points| points.contains(&50)).count();
+    assert_eq!(tricubic.singular(), around);
+    for (tetrahedron, points) in mesh.tetrahedra().iter().enumerate() {
+        let finite = tricubic.cubic(tetrahedron).coefficients.iter().all(|c| c.is_finite());
+        assert_eq!(finite, !points.contains(&50));
+    }
+}
+
+/// Equations that determine only a part of each cubic do no harm.
+#[test]
+fn operators_that_see_little() {
+    let mesh = random_cube(&mut Random(18), 500);
+    let (values, gradients) = SEVENTH.at_points(&mesh);
+    let field = Field { values: &values, gradients: &gradients };
+    let without = error(&Tricubic::new(&mesh, field), &SEVENTH);
+    for text in [
+        "uxx = y^2*z^2*u",
+        "uxx + uyy = (x^2 + y^2)*z^2*u",
+        "uxx - uzz = (z^2 - x^2)*y^2*u",
+        "uxy = z*(1 + x*y*z)*u",
+    ] {
+        let pde = parse(text);
+        let tricubic = Tricubic::with_pde(&mesh, field, &equation(&pde, &[]));
+        let with = error(&tricubic, &SEVENTH);
+        println!("{text}: {with:.2e}, without {without:.2e}");
+        assert!(with < without && tricubic.singular() == 0);
     }
 }
 

@@ -17,6 +17,7 @@ pub struct CellRanges {
     /// Least and greatest coefficient; an empty range for an unusable cell.
     ranges: Vec<[f64; 2]>,
     unusable: usize,
+    excluded: usize,
 }
 
 /// The range of a cell that holds no value.
@@ -34,7 +35,7 @@ impl CellRanges {
             })
             .collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
-        Self { ranges, unusable }
+        Self { ranges, unusable, excluded: 0 }
     }
 
     /// Leaves out the usable cells for which `excluded` says so; returns how many.
@@ -46,7 +47,18 @@ impl CellRanges {
                 count += 1;
             }
         }
+        self.excluded += count;
         count
+    }
+
+    /// Whether any cell is left out: unusable, or excluded.
+    pub fn leaves_out_any(&self) -> bool {
+        self.unusable + self.excluded > 0
+    }
+
+    /// Whether a cell is left out: unusable, or excluded.
+    pub fn leaves_out(&self, cell: usize) -> bool {
+        self.ranges[cell] == EMPTY
     }
 
     /// How many cells have a value or a gradient that is not finite. They hold

@@ -7,7 +7,7 @@ use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
 use super::triangles::Triangles;
 use crate::contour::CellRanges;
-use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
+use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -80,7 +80,8 @@ pub fn contour(
     let range = solution.range(&ranges, cubics.as_ref())?;
     let levels = options.levels.resolve(range)?;
     progress(Stage::Contour);
-    let lines = contour_lines(cubics.as_ref(), &ranges, &levels, options.method, resolution);
+    let lines =
+        contour_lines_with_walls(cubics.as_ref(), &ranges, &levels, options.method, resolution);
     progress(Stage::Data);
     let poly_data = LineOutput {
         grid,
@@ -117,8 +118,12 @@ impl Report {
             }
         };
         let [low, high] = self.range;
-        let outside = lines.levels.iter().filter(|&&level| level < low || level > high);
-        let outside: Vec<f64> = outside.copied().collect();
+        // a level beside a wall's value, by rounding, has the wall for its line
+        let is_drawn = |place: usize| lines.lines.iter().any(|line| line.level == place);
+        let is_outside =
+            |&(place, &level): &(usize, &f64)| (level < low || level > high) && !is_drawn(place);
+        let outside: Vec<f64> =
+            lines.levels.iter().enumerate().filter(is_outside).map(|(_, &level)| level).collect();
         let label = &self.label;
         warn(
             !outside.is_empty(),

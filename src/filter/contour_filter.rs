@@ -4,10 +4,12 @@ use super::cell_type::CellCounts;
 use super::error::FilterError;
 use super::line_output::LineOutput;
 use super::options::ContourOptions;
+use super::pde_warning::pde_warning;
 use super::solution::{Interpolated, Solution};
 use super::triangles::Triangles;
 use crate::contour::CellRanges;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
+use crate::interpolant::PdeFit;
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -38,6 +40,8 @@ pub struct Report {
     pub ghosts: usize,
     /// Triangles in which the PDE could not be used.
     pub singular: usize,
+    /// How well the PDE fits the values and gradients; nothing without a PDE.
+    pub pde_fit: Option<PdeFit>,
     /// The least and the greatest value of the interpolant.
     pub range: [f64; 2],
     /// What the contouring counted.
@@ -74,7 +78,7 @@ pub fn contour(
     let solution = Solution::new(grid, options)?;
     let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
     progress(Stage::Interpolant);
-    let Interpolated { cubics, singular } = solution.interpolant(options.predictor);
+    let Interpolated { cubics, singular, pde_fit } = solution.interpolant(options.predictor);
     let mut ranges = CellRanges::new(cubics.as_ref());
     let ghosts = ranges.exclude(|triangle| solution.is_ghost(triangle));
     let range = solution.range(&ranges, cubics.as_ref())?;
@@ -100,6 +104,7 @@ pub fn contour(
         skipped: solution.triangles.skipped.clone(),
         ghosts,
         singular,
+        pde_fit,
         range,
         counts: lines.counts,
         resolution,
@@ -166,6 +171,7 @@ impl Report {
             singular > 0,
             format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
         );
+        self.warnings.extend(pde_warning(label, self.pde_fit));
         self
     }
 }

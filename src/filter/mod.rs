@@ -9,6 +9,7 @@ mod contour_filter;
 mod error;
 mod line_output;
 mod options;
+mod pde_warning;
 mod picture;
 mod resample;
 mod scalars;

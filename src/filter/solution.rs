@@ -6,7 +6,7 @@ use super::scalars::{ChosenArray, Gradients};
 use super::triangles::{Triangles, is_ghost};
 use crate::contour::CellRanges;
 use crate::field::Field;
-use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
+use crate::interpolant::{Equation, Linear, Pci, PdeFit, Predictor, TriangleCubics};
 use crate::pde::Pde;
 use crate::vtk::UnstructuredGrid;
 
@@ -38,6 +38,8 @@ pub struct Interpolated<'a> {
     pub cubics: Box<dyn TriangleCubics + 'a>,
     /// Triangles in which the PDE could not be used.
     pub singular: usize,
+    /// How well the PDE fits the data; nothing without a PDE.
+    pub pde_fit: Option<PdeFit>,
 }
 
 impl<'a> Solution<'a> {
@@ -67,14 +69,16 @@ impl<'a> Solution<'a> {
         let field = Field { values: &self.values, gradients: &self.gradients.vectors };
         if self.interpolant == InterpolantKind::Linear {
             let cubics = Box::new(Linear::new(mesh, &self.values));
-            return Interpolated { cubics, singular: 0 };
+            return Interpolated { cubics, singular: 0, pde_fit: None };
         }
         let Some(KnownPde { pde, arrays }) = &self.equation else {
-            return Interpolated { cubics: Box::new(Pci::new(mesh, field)), singular: 0 };
+            let cubics = Box::new(Pci::new(mesh, field));
+            return Interpolated { cubics, singular: 0, pde_fit: None };
         };
         let pci = Pci::with_pde(mesh, field, &Equation { pde, arrays, predictor });
         let singular = pci.singular();
-        Interpolated { cubics: Box::new(pci), singular }
+        let pde_fit = Some(PdeFit::new(&pci, pde));
+        Interpolated { cubics: Box::new(pci), singular, pde_fit }
     }
 
     /// The least and the greatest value of the interpolant.

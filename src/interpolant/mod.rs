@@ -5,9 +5,11 @@
 
 mod linear;
 mod pci;
+mod pde_fit;
 
 pub use linear::Linear;
 pub use pci::{Equation, Pci, Predictor};
+pub use pde_fit::PdeFit;
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::mesh::{TetrahedronMesh, TriangleMesh};

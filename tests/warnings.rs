@@ -1,0 +1,89 @@
+//! What the filter tells people: of a PDE or a gradient that is hardly the solution's,
+//! and silence where all is well.
+
+mod support;
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use support::meshes::{Random, random_square};
+use vtu2contour::filter::{ContourOptions, contour};
+use vtu2contour::mesh::Vector;
+use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
+
+fn sample(name: &str) -> UnstructuredGrid {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(name);
+    VtuFile::open(file).unwrap().read(&Selection::All).unwrap().data
+}
+
+fn warnings(grid: &UnstructuredGrid, options: &ContourOptions) -> Vec<String> {
+    contour(grid, options, &mut |_| {}).unwrap().report.warnings
+}
+
+fn with_pde(pde: &str) -> ContourOptions {
+    let parameters = if pde.contains("k2") { vec![("k2".to_owned(), 84.39413)] } else { vec![] };
+    ContourOptions { pde: Some(pde.to_owned()), parameters, ..ContourOptions::default() }
+}
+
+#[test]
+fn the_right_pde_is_used_in_silence() {
+    for (name, pde) in [
+        ("islands.vtu", "uxx + uyy = -k2*u"),
+        ("plate_with_holes.vtu", "uxx + uyy = -6"),
+        ("no_gradient.vtu", "uxx + uyy = 0"),
+        ("problem4.vtu", "uxx + uyy = laplacian"),
+    ] {
+        assert_eq!(warnings(&sample(name), &with_pde(pde)), Vec::<String>::new(), "{name}");
+    }
+}
+
+/// sin(kx) cos(ky) on random points, with its gradient: 150 of them are eight a
+/// wavelength.
+fn coarse(seed: u64, points: usize) -> UnstructuredGrid {
+    let k = 3.0 * PI;
+    let mesh = random_square(&mut Random(seed), points);
+    let coordinates = mesh.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
+    for triangle in mesh.triangles() {
+        grid.push_cell(5, &triangle.map(i64::from));
+    }
+    let values = mesh.points().iter().map(|p| (k * p.x).sin() * (k * p.y).cos());
+    let gradient = |p: &Vector| {
+        let (sx, cx, sy, cy) = ((k * p.x).sin(), (k * p.x).cos(), (k * p.y).sin(), (k * p.y).cos());
+        [k * cx * cy, -k * sx * sy, 0.0]
+    };
+    let gradients = mesh.points().iter().flat_map(gradient).collect::<Vec<f64>>();
+    grid.point_data.push(DataArray::new("u", 1, values.collect::<Vec<f64>>()));
+    grid.point_data.push(DataArray::new("gradient", 3, gradients));
+    grid
+}
+
+#[test]
+fn coarse_meshes_do_not_make_a_right_pde_wrong() {
+    let k = 3.0 * PI;
+    for seed in 0..20 {
+        let grid = coarse(seed, 150);
+        let right = with_pde(&format!("uxx + uyy = -2*{k}^2*u"));
+        assert_eq!(warnings(&grid, &right), Vec::<String>::new(), "seed {seed}");
+        let wrong = with_pde(&format!("uxx + uyy = 2*{k}^2*u"));
+        assert_eq!(warnings(&grid, &wrong).len(), 1, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_wrong_pde_is_noticed() {
+    for (name, pde) in [
+        ("islands.vtu", "uxx + uyy = k2*u"),
+        ("islands.vtu", "uxx + uyy = -2*k2*u"),
+        ("islands.vtu", "uxx + uyy = -k2*u/2"),
+        ("islands.vtu", "uxx + uyy = 500"),
+        ("islands.vtu", "uxx + uyy = 0"),
+        ("plate_with_holes.vtu", "uxx + uyy = 6"),
+        ("plate_with_holes.vtu", "uxx + uyy = -12"),
+        ("problem4.vtu", "uxx + uyy = -laplacian"),
+        ("problem4.vtu", "uxx + uyy = 10*laplacian"),
+    ] {
+        let told = warnings(&sample(name), &with_pde(pde));
+        assert!(told.iter().any(|w| w.contains("the PDE does not fit")), "{name} {pde}: {told:?}");
+    }
+}

@@ -87,3 +87,43 @@ fn a_wrong_pde_is_noticed() {
         assert!(told.iter().any(|w| w.contains("the PDE does not fit")), "{name} {pde}: {told:?}");
     }
 }
+
+#[test]
+fn a_field_array_of_one_number_is_a_parameter() {
+    let grid = sample("islands.vtu");
+    let options = ContourOptions {
+        pde: Some("uxx + uyy = -k2*u".to_owned()),
+        parameters: Vec::new(),
+        ..ContourOptions::default()
+    };
+    assert_eq!(warnings(&grid, &options), Vec::<String>::new());
+    // a parameter that is given wins: with this one the PDE does not fit
+    let parameters = vec![("k2".to_owned(), -84.0)];
+    let given = ContourOptions { parameters, ..options.clone() };
+    assert_eq!(warnings(&grid, &given).len(), 1);
+    // one of several numbers cannot be meant, and is told
+    let mut grid = grid;
+    grid.field_data.push(DataArray::new("k2", 1, vec![84.4, 1.0]));
+    assert!(refusal(&grid, &options).contains("'k2' is a field array, but not of one number"));
+}
+
+fn refusal(grid: &UnstructuredGrid, options: &ContourOptions) -> String {
+    contour(grid, options, &mut |_| {}).err().unwrap().to_string()
+}
+
+#[test]
+fn names_that_cannot_stand_in_a_pde_are_explained() {
+    let grid = sample("islands.vtu");
+    let told = refusal(&grid, &with_pde("uxx + uyy = Gradients"));
+    assert!(told.contains("'Gradients' is a point array of 3 components"), "{told}");
+    let told = refusal(&sample("problem4.vtu"), &with_pde("uxx + uyy = area"));
+    assert!(told.contains("'area' is a cell array"), "{told}");
+}
+
+#[test]
+fn a_parameter_that_is_not_used_is_told() {
+    let parameters = vec![("k2".to_owned(), 84.39413), ("zz".to_owned(), 3.0)];
+    let options = ContourOptions { parameters, ..with_pde("uxx + uyy = -k2*u") };
+    let told = warnings(&sample("islands.vtu"), &options);
+    assert_eq!(told, ["the PDE does not use the parameter 'zz'"]);
+}

@@ -97,6 +97,7 @@ pub fn contour(
     }
     .poly_data();
     drop(cubics);
+    let pde_warnings = solution.pde_warnings().to_vec();
     let report = Report {
         label: solution.chosen.label(),
         gradient: solution.gradients.array,
@@ -108,7 +109,7 @@ pub fn contour(
         range,
         counts: lines.counts,
         resolution,
-        warnings: solution.gradients.warning.into_iter().collect(),
+        warnings: solution.gradients.warning.into_iter().chain(pde_warnings).collect(),
     };
     let report = report.with_warnings(&lines);
     Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })

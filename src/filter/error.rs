@@ -63,6 +63,9 @@ pub enum FilterError {
     #[error("--pde: {0}")]
     Pde(#[from] PdeError),
 
+    #[error("--pde: '{name}' {cure}")]
+    PdeName { name: String, cure: String },
+
     #[error(transparent)]
     Level(#[from] LevelError),
 

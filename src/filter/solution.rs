@@ -1,13 +1,13 @@
 //! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
 
 use super::error::FilterError;
+use super::known_pde::KnownPde;
 use super::options::{ContourOptions, InterpolantKind};
 use super::scalars::{ChosenArray, Gradients};
 use super::triangles::{Triangles, is_ghost};
 use crate::contour::CellRanges;
 use crate::field::Field;
 use crate::interpolant::{Equation, Linear, Pci, PdeFit, Predictor, TriangleCubics};
-use crate::pde::Pde;
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid is contoured.
@@ -24,12 +24,6 @@ pub struct Solution<'a> {
     pub gradients: Gradients,
     interpolant: InterpolantKind,
     equation: Option<KnownPde>,
-}
-
-/// A PDE, and the values of each point array that it names.
-struct KnownPde {
-    pde: Pde,
-    arrays: Vec<Vec<f64>>,
 }
 
 /// An interpolant, and what it could not do.
@@ -50,7 +44,7 @@ impl<'a> Solution<'a> {
     /// has no triangles.
     pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
-        let equation = equation(grid, options)?;
+        let equation = KnownPde::new(grid, options)?;
         let triangles = Triangles::of(grid)?;
         let values = chosen.values();
         let gradients = match options.interpolant {
@@ -71,7 +65,7 @@ impl<'a> Solution<'a> {
             let cubics = Box::new(Linear::new(mesh, &self.values));
             return Interpolated { cubics, singular: 0, pde_fit: None };
         }
-        let Some(KnownPde { pde, arrays }) = &self.equation else {
+        let Some(KnownPde { pde, arrays, .. }) = &self.equation else {
             let cubics = Box::new(Pci::new(mesh, field));
             return Interpolated { cubics, singular: 0, pde_fit: None };
         };
@@ -94,25 +88,13 @@ impl<'a> Solution<'a> {
         ranges.attained(cubics).ok_or_else(no_values)
     }
 
+    /// What people should know about the PDE's parameters, a line each.
+    pub fn pde_warnings(&self) -> &[String] {
+        self.equation.as_ref().map_or(&[], |known| &known.warnings)
+    }
+
     /// Whether a triangle belongs to another process.
     pub fn is_ghost(&self, triangle: usize) -> bool {
         is_ghost(self.grid, self.triangles.parents[triangle])
     }
-}
-
-/// The PDE and the values of the point arrays that it names.
-fn equation(
-    grid: &UnstructuredGrid,
-    options: &ContourOptions,
-) -> Result<Option<KnownPde>, FilterError> {
-    let Some(text) = &options.pde else { return Ok(None) };
-    if options.interpolant == InterpolantKind::Linear {
-        return Err(FilterError::LinearPde);
-    }
-    let scalars: Vec<_> = grid.point_data.iter().filter(|array| array.components == 1).collect();
-    let names: Vec<String> = scalars.iter().map(|array| array.name.clone()).collect();
-    let pde = Pde::parse(text, &options.parameters, &names)?;
-    let values = |&place: &usize| scalars[place].to_f64().unwrap_or_default();
-    let arrays = pde.used_arrays().iter().map(values).collect();
-    Ok(Some(KnownPde { pde, arrays }))
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use support::meshes::{Random, random_square};
-use vtu2contour::filter::{ContourOptions, contour};
+use vtu2contour::filter::{ContourOptions, GradientSource, contour};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
 
@@ -126,4 +126,36 @@ fn a_parameter_that_is_not_used_is_told() {
     let options = ContourOptions { parameters, ..with_pde("uxx + uyy = -k2*u") };
     let told = warnings(&sample("islands.vtu"), &options);
     assert_eq!(told, ["the PDE does not use the parameter 'zz'"]);
+}
+
+#[test]
+fn a_gradient_of_a_constant_must_be_zero() {
+    let mut grid = coarse(1, 150);
+    let points = grid.points.tuples();
+    grid.point_data.push(DataArray::new("u", 1, vec![2.0; points]));
+    let told = warnings(&grid, &ContourOptions::default());
+    let expected = "array 'gradient' is not used as the gradient of 'u': values change far less";
+    assert!(told[0].starts_with(expected), "{told:?}");
+    // rounding is zero
+    grid.point_data.push(DataArray::new("gradient", 3, vec![1e-13; 3 * points]));
+    assert!(!warnings(&grid, &ContourOptions::default()).concat().contains("not used"));
+}
+
+#[test]
+fn components_of_the_gradient_may_be_arrays_of_their_own() {
+    let mut grid = coarse(1, 400);
+    let gradient = grid.point_data.get("gradient").unwrap().clone();
+    for (name, axis) in [("a", 0), ("b", 1)] {
+        let values = gradient.component(axis).unwrap();
+        grid.point_data.push(DataArray::new(name, 1, values));
+    }
+    let named = |name: &str| ContourOptions {
+        array: Some("u".to_owned()),
+        gradient: GradientSource::Array(name.to_owned()),
+        ..ContourOptions::default()
+    };
+    let lines = |options| contour(&grid, options, &mut |_| {}).unwrap().lines.points;
+    assert_eq!(lines(&named("a,b")), lines(&named("gradient")));
+    assert!(refusal(&grid, &named("a,c")).contains("no point array 'c'"));
+    assert!(refusal(&grid, &named("a,gradient")).contains("two or three arrays"));
 }

@@ -48,6 +48,11 @@ pub enum FilterError {
     )]
     GradientShape { name: String, components: usize, expected: String },
 
+    #[error(
+        "the gradient '{name}' must be one array of vectors, or two or three arrays of one component"
+    )]
+    GradientParts { name: String },
+
     #[error("no triangle holds a finite value of '{name}': there is nothing to contour")]
     NoValues { name: String },
 

@@ -7,6 +7,7 @@
 mod cell_type;
 mod contour_filter;
 mod error;
+mod gradient_arrays;
 mod known_pde;
 mod line_output;
 mod options;

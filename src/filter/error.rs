@@ -43,8 +43,8 @@ pub enum FilterError {
     NotNumbers { name: String },
 
     #[error(
-        "array '{name}' cannot be the gradient: it has {components} components, and {expected} \
-         are needed"
+        "array '{name}' cannot be the gradient: it has {components} component{}, and {expected} \
+         are needed", if *components == 1 { "" } else { "s" }
     )]
     GradientShape { name: String, components: usize, expected: String },
 

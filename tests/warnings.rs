@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use support::meshes::{Random, random_square};
+use vtu2contour::contour::Levels;
 use vtu2contour::filter::{ContourOptions, GradientSource, contour};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
@@ -158,4 +159,36 @@ fn components_of_the_gradient_may_be_arrays_of_their_own() {
     assert_eq!(lines(&named("a,b")), lines(&named("gradient")));
     assert!(refusal(&grid, &named("a,c")).contains("no point array 'c'"));
     assert!(refusal(&grid, &named("a,gradient")).contains("two or three arrays"));
+}
+
+#[test]
+fn cells_with_points_of_their_own_are_told_and_can_be_merged() {
+    let whole = coarse(2, 400);
+    let mut torn = UnstructuredGrid::new(corners_of(&whole, &whole.points));
+    for cell in 0..whole.types.len() as i64 {
+        torn.push_cell(5, &[3 * cell, 3 * cell + 1, 3 * cell + 2]);
+    }
+    for array in whole.point_data.iter() {
+        torn.point_data.push(corners_of(&whole, array));
+    }
+    let levels = Levels::Explicit(vec![0.3]);
+    let options = ContourOptions { levels, ..ContourOptions::default() };
+    let lines = |grid: &UnstructuredGrid, options: &ContourOptions| {
+        contour(grid, options, &mut |_| {}).unwrap().lines.lines.len()
+    };
+    let told = warnings(&torn, &options).concat();
+    assert!(told.contains("points are at the place of another") && told.contains("--merge-points"));
+    assert_eq!(warnings(&whole, &options), Vec::<String>::new());
+    assert!(lines(&torn, &options) > 5 * lines(&whole, &options));
+    let merging = ContourOptions { merge_points: Some(0.0), ..options.clone() };
+    assert_eq!(warnings(&torn, &merging), Vec::<String>::new());
+    assert_eq!(lines(&torn, &merging), lines(&whole, &options));
+}
+
+/// The tuples of an array at the corners of all cells.
+fn corners_of(grid: &UnstructuredGrid, array: &DataArray) -> DataArray {
+    let (values, width) = (array.to_f64().unwrap(), array.components);
+    let tuple = |&point: &i64| values[point as usize * width..][..width].to_vec();
+    let corners = grid.cells.iter().flatten().flat_map(tuple).collect::<Vec<f64>>();
+    DataArray::new(array.name.clone(), width, corners)
 }

@@ -118,6 +118,14 @@ pub struct ContourArguments {
     #[command(flatten)]
     pub scalars: ScalarArguments,
 
+    /// Make points one that are no further apart than this, in the mesh's unit; 0 (or no
+    /// number) for points at exactly the same place, as discontinuous elements have them
+    #[arg(
+        long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0",
+        help_heading = "What to contour", value_parser = not_negative
+    )]
+    merge_points: Option<f64>,
+
     #[command(flatten)]
     pub levels: LevelArguments,
 
@@ -339,6 +347,7 @@ impl ContourArguments {
     pub fn options(&self) -> ContourOptions {
         let Self { levels, interpolant, lines, output_options, .. } = self;
         ContourOptions {
+            merge_points: self.merge_points,
             levels: levels.levels(),
             method: lines.method.into(),
             spacing: lines.spacing,
@@ -428,6 +437,11 @@ fn level(text: &str) -> Result<f64, String> {
 fn positive(text: &str) -> Result<f64, String> {
     let value = level(text)?;
     if value > 0.0 { Ok(value) } else { Err("not above zero".to_owned()) }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let value = level(text)?;
+    if value >= 0.0 { Ok(value) } else { Err("below zero".to_owned()) }
 }
 
 fn range(text: &str) -> Result<[f64; 2], String> {

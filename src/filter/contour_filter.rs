@@ -3,6 +3,7 @@
 use super::cell_type::CellCounts;
 use super::error::FilterError;
 use super::line_output::LineOutput;
+use super::merge_points::{coincidence_warning, merge_points};
 use super::options::ContourOptions;
 use super::pde_warning::pde_warning;
 use super::solution::{Interpolated, Solution};
@@ -75,6 +76,8 @@ pub fn contour(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Contoured, FilterError> {
     progress(Stage::Field);
+    let grid = merge_points(grid, options.merge_points)?;
+    let grid = grid.as_ref();
     let solution = Solution::new(grid, options)?;
     let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
     progress(Stage::Interpolant);
@@ -97,7 +100,9 @@ pub fn contour(
     }
     .poly_data();
     drop(cubics);
-    let pde_warnings = solution.pde_warnings().to_vec();
+    let mut warnings = solution.pde_warnings().to_vec();
+    warnings.extend(coincidence_warning(&solution.triangles.mesh));
+    warnings.extend(solution.gradients.warning);
     let report = Report {
         label: solution.chosen.label(),
         gradient: solution.gradients.array,
@@ -109,7 +114,7 @@ pub fn contour(
         range,
         counts: lines.counts,
         resolution,
-        warnings: solution.gradients.warning.into_iter().chain(pde_warnings).collect(),
+        warnings,
     };
     let report = report.with_warnings(&lines);
     Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })

@@ -80,6 +80,9 @@ pub enum FilterError {
     #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
 
+    #[error("--merge-points {value:?} must be a length: zero, or above it")]
+    MergeTolerance { value: f64 },
+
     #[error(
         "{option} {value:e} is too small: below {least:e}, a millionth of the size of the mesh, \
          lines would have millions of points"

@@ -10,6 +10,7 @@ mod error;
 mod gradient_arrays;
 mod known_pde;
 mod line_output;
+mod merge_points;
 mod options;
 mod pde_warning;
 mod picture;

@@ -71,6 +71,15 @@ impl TriangleCubic {
         Self::assemble(values, toward, (values[0] + values[1] + values[2]) / 3.0)
     }
 
+    /// This cubic with the `b_111` that reproduces quadratics: a quarter of the edge
+    /// coefficients less a sixth of the vertex coefficients.
+    pub fn with_quadratic_centre(mut self) -> Self {
+        let [a, ab, ac, ba, _, ca, b, bc, cb, c] = self.coefficients;
+        let edges = (ab + ba) + (bc + cb) + (ca + ac);
+        self.coefficients[Self::CENTRE] = edges / 4.0 - (a + b + c) / 6.0;
+        self
+    }
+
     /// The cubic with `b_ijk` given by a function of `[i, j, k]`.
     pub fn from_coefficients(coefficient: impl Fn([usize; 3]) -> f64) -> Self {
         let mut coefficients = [0.0; 10];

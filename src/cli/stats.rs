@@ -1,5 +1,6 @@
 //! Counts and times of a job, for `--stats`.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::ops::AddAssign;
 use std::time::Instant;
@@ -14,6 +15,9 @@ use vtu2contour::vtk::{AtomicFile, ClosedFile, PvdEntry};
 pub struct Stats {
     array: String,
     levels: Vec<f64>,
+    /// Places of the levels that have lines.
+    #[serde(skip)]
+    drawn: BTreeSet<usize>,
     #[serde(flatten)]
     all: Counts,
     seconds: Seconds,
@@ -148,6 +152,7 @@ impl Stats {
         } else {
             self.all += &counts;
         }
+        self.drawn.extend(contoured.lines.lines.iter().map(|line| line.level));
         self.parts.push(PartStats {
             file: part.file.display().to_string(),
             time: part.time,
@@ -162,7 +167,9 @@ impl Stats {
 
     /// What people should know about the levels.
     pub fn level_warning(&self) -> Option<String> {
-        level_warning(&self.array, self.all.range, &self.levels)
+        level_warning(&self.array, self.all.range, &self.levels, |level| {
+            self.drawn.contains(&level)
+        })
     }
 
     /// Writes all of it, and the times of the job.

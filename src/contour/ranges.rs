@@ -18,6 +18,7 @@ pub struct CellRanges {
     /// Least and greatest coefficient; an empty range for an unusable cell.
     ranges: Vec<[f64; 2]>,
     unusable: usize,
+    excluded: usize,
 }
 
 /// The range of a cell that holds no value.
@@ -39,7 +40,7 @@ impl CellRanges {
     fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f64; 2] + Sync + Send) -> Self {
         let ranges: Vec<[f64; 2]> = (0..cells).into_par_iter().map(bounds).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
-        Self { ranges, unusable }
+        Self { ranges, unusable, excluded: 0 }
     }
 
     /// Leaves out the usable cells for which `excluded` says so; returns how many.
@@ -51,7 +52,18 @@ impl CellRanges {
                 count += 1;
             }
         }
+        self.excluded += count;
         count
+    }
+
+    /// Whether any cell is left out: unusable, or excluded.
+    pub fn leaves_out_any(&self) -> bool {
+        self.unusable + self.excluded > 0
+    }
+
+    /// Whether a cell is left out: unusable, or excluded.
+    pub fn leaves_out(&self, cell: usize) -> bool {
+        self.ranges[cell] == EMPTY
     }
 
     /// How many cells have a value or a gradient that is not finite. They hold

@@ -27,6 +27,10 @@ const OF_VALUE: f64 = 4.0 * f64::EPSILON;
 /// of times smaller than those that it came of.
 const OF_SPREAD: f64 = 64.0 * f64::EPSILON;
 
+/// Rounding of a value that was given, by a boundary condition, and went through a
+/// file of single precision or a solver: 0.1 is then 0.100000001.
+const OF_GIVEN: f64 = 1e-6;
+
 impl Rounding {
     /// The rounding at the points of the cells that are active at a level.
     pub fn new<const CORNERS: usize>(
@@ -46,12 +50,32 @@ impl Rounding {
         Self { level, spreads }
     }
 
+    /// The level.
+    pub fn level(&self) -> f64 {
+        self.level
+    }
+
     /// How near to the level coefficients at a point count as on it; `value` is the
     /// value there.
     pub fn at(&self, point: u32, value: f64) -> f64 {
-        let spread = self.spreads.get(&point).copied().unwrap_or(0.0);
-        let spread = if spread.is_finite() { spread } else { 0.0 };
+        let spread = self.spread(point);
         (OF_VALUE * value.abs().max(self.level.abs())).max(OF_SPREAD * spread)
+    }
+
+    /// The same at a point of a wall, whose value is a given number.
+    pub fn at_wall(&self, point: u32, value: f64) -> f64 {
+        let spread = self.spread(point);
+        OF_GIVEN * value.abs().max(self.level.abs()).max(spread)
+    }
+
+    /// Whether the value at a point may be the level, given as a number.
+    pub fn is_on_level(&self, point: u32, value: f64) -> bool {
+        (value - self.level).abs() <= self.at_wall(point, value)
+    }
+
+    fn spread(&self, point: u32) -> f64 {
+        let spread = self.spreads.get(&point).copied().unwrap_or(0.0);
+        if spread.is_finite() { spread } else { 0.0 }
     }
 }
 
@@ -59,5 +83,6 @@ impl Rounding {
 /// met in it.
 pub fn of_range([low, high]: [f64; 2], level: f64) -> f64 {
     let largest = low.abs().max(high.abs()).max(level.abs());
-    OF_VALUE * largest + OF_SPREAD * (high - low)
+    // the widest of the measures above; a cell that is met in vain does no harm
+    OF_GIVEN * largest.max(high - low)
 }

@@ -4,10 +4,13 @@ use super::cells::Triangles;
 use super::error::FilterError;
 use super::gradients::GradientOrigin;
 use super::line_output::LineOutput;
+use super::merge_points::{coincidence_warning, merge_points};
 use super::options::ContourOptions;
+use super::pde_warning::pde_warning;
 use super::solution::{Interpolated, Solution};
 use crate::contour::CellRanges;
-use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines};
+use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
+use crate::interpolant::PdeFit;
 use crate::simplices::{CellCounts, LeftOut, lagrange_grid};
 use crate::vtk::{PolyData, UnstructuredGrid};
 
@@ -41,6 +44,8 @@ pub struct Report {
     pub ghosts: usize,
     /// Triangles in which the PDE could not be used.
     pub singular: usize,
+    /// How well the PDE fits the values and gradients; nothing without a PDE.
+    pub pde_fit: Option<PdeFit>,
     /// The least and the greatest value of the interpolant.
     pub range: [f64; 2],
     /// What the contouring counted.
@@ -75,17 +80,20 @@ pub fn contour(
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Contoured, FilterError> {
     progress(Stage::Field);
-    let grid = &lagrange_grid(grid);
+    let grid = lagrange_grid(grid);
+    let grid = merge_points(&grid, options.merge_points)?;
+    let grid = grid.as_ref();
     let solution = Solution::new(grid, options)?;
     let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
     progress(Stage::Interpolant);
-    let Interpolated { cubics, singular } = solution.interpolant(options.predictor);
+    let Interpolated { cubics, singular, pde_fit } = solution.interpolant(options.predictor);
     let mut ranges = CellRanges::new(cubics.as_ref());
     let ghosts = ranges.exclude(|triangle| solution.is_ghost(triangle));
     let range = solution.range(&ranges, cubics.as_ref())?;
     let levels = options.levels.resolve(range)?;
     progress(Stage::Contour);
-    let lines = contour_lines(cubics.as_ref(), &ranges, &levels, options.method, resolution);
+    let lines =
+        contour_lines_with_walls(cubics.as_ref(), &ranges, &levels, options.method, resolution);
     progress(Stage::Data);
     let poly_data = LineOutput {
         grid,
@@ -98,6 +106,9 @@ pub fn contour(
     .poly_data();
     drop(cubics);
     let solids = solution.solids();
+    let mut warnings = solution.pde_warnings().to_vec();
+    warnings.extend(coincidence_warning(&solution.triangles.mesh));
+    warnings.extend(solution.gradients.warning);
     let report = Report {
         label: solution.chosen.label(),
         gradient: solution.gradients.origin,
@@ -106,10 +117,11 @@ pub fn contour(
         solids,
         ghosts,
         singular,
+        pde_fit,
         range,
         counts: lines.counts,
         resolution,
-        warnings: solution.gradients.warning.into_iter().collect(),
+        warnings,
     };
     let report = report.with_warnings();
     Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })
@@ -154,6 +166,7 @@ impl Report {
             singular > 0,
             format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
         );
+        self.warnings.extend(pde_warning(&self.label, self.pde_fit));
         self
     }
 }

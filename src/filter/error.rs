@@ -43,10 +43,15 @@ pub enum FilterError {
     NotNumbers { name: String },
 
     #[error(
-        "array '{name}' cannot be the gradient: it has {components} components, and {expected} \
-         are needed"
+        "array '{name}' cannot be the gradient: it has {components} component{}, and {expected} \
+         are needed", if *components == 1 { "" } else { "s" }
     )]
     GradientShape { name: String, components: usize, expected: String },
+
+    #[error(
+        "the gradient '{name}' must be one array of vectors, or two or three arrays of one component"
+    )]
+    GradientParts { name: String },
 
     #[error("no triangle holds a finite value of '{name}': there is nothing to contour")]
     NoValues { name: String },
@@ -63,6 +68,9 @@ pub enum FilterError {
     #[error("--pde: {0}")]
     Pde(#[from] PdeError),
 
+    #[error("--pde: '{name}' {cure}")]
+    PdeName { name: String, cure: String },
+
     #[error(transparent)]
     Level(#[from] LevelError),
 
@@ -71,6 +79,9 @@ pub enum FilterError {
 
     #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
+
+    #[error("--merge-points {value:?} must be a length: zero, or above it")]
+    MergeTolerance { value: f64 },
 
     #[error(
         "{option} {value:e} is too small: below {least:e}, a millionth of the size of the mesh, \

@@ -4,10 +4,11 @@ use std::fmt;
 
 use super::chosen_array::{ChosenArray, Component, named};
 use super::error::FilterError;
+use super::gradient_arrays::GradientArrays;
 use crate::field::{RecoveryDegree, recover_gradients};
 use crate::mesh::{TriangleMesh, Vector};
-use crate::simplices::{nodal_gradients, vectors};
-use crate::vtk::{DataArray, UnstructuredGrid};
+use crate::simplices::nodal_gradients;
+use crate::vtk::UnstructuredGrid;
 
 /// Where the gradient comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -78,16 +79,17 @@ impl Gradients {
         match source {
             GradientSource::Recovered => Ok(Self::recovered(mesh, values)),
             GradientSource::Array(name) => {
-                let array = named(grid, name)?;
-                let vectors =
-                    gradient_of(array, chosen).ok_or_else(|| wrong_shape(array, chosen))?;
+                let arrays = match GradientArrays::named(grid, name) {
+                    Some(arrays) => arrays,
+                    None => return Err(missing(grid, name)),
+                };
+                let vectors = arrays.vectors(chosen).ok_or_else(|| wrong_shape(&arrays, chosen))?;
                 let misfit = misfit(mesh, values, &vectors);
                 let warning = (misfit > WORST_FIT).then(|| {
                     format!(
-                        "array '{name}' does not look like the gradient of '{}': values along \
-                         edges differ from it by {:.0} %",
+                        "array '{name}' does not look like the gradient of '{}': {}",
                         chosen.label(),
-                        100.0 * misfit
+                        difference(misfit)
                     )
                 });
                 Ok(Self { vectors, origin: GradientOrigin::Array(name.clone()), warning })
@@ -128,22 +130,24 @@ impl Gradients {
         values: &[f64],
     ) -> Self {
         let mut refused = None;
-        for array in conventional(grid, &chosen.array.name) {
-            let Some(vectors) = gradient_of(array, chosen) else { continue };
+        for arrays in GradientArrays::conventional(grid, &chosen.array.name) {
+            let Some(vectors) = arrays.vectors(chosen) else { continue };
             let misfit = misfit(mesh, values, &vectors);
             if misfit <= WORST_FIT {
-                let origin = GradientOrigin::Array(array.name.clone());
+                let origin = GradientOrigin::Array(arrays.name());
                 return Self { vectors, origin, warning: None };
             }
-            refused.get_or_insert_with(|| {
-                format!(
-                    "array '{0}' is not used as the gradient of '{1}': values along edges differ \
-                     from it by {2:.0} % (--gradient '{0}' forces it)",
-                    array.name,
-                    chosen.label(),
-                    100.0 * misfit
-                )
-            });
+            if arrays.is_certain {
+                refused.get_or_insert_with(|| {
+                    format!(
+                        "array '{0}' is not used as the gradient of '{1}': {2} \
+                         (--gradient '{0}' forces it)",
+                        arrays.name(),
+                        chosen.label(),
+                        difference(misfit)
+                    )
+                });
+            }
         }
         let other = Self::of_cells(grid, mesh, values);
         let other = other.unwrap_or_else(|| Self::recovered(mesh, values));
@@ -155,10 +159,13 @@ impl Gradients {
 /// average to better than this: half, for on a coarse mesh much is curvature.
 const WORST_FIT: f64 = 0.5;
 
+/// Differences below this part of the values are rounding, of single precision too.
+const ROUNDING: f64 = 1e-7;
+
 /// How much the values' differences along edges differ from the mean of the
 /// gradients at the ends, relative to the differences.
 fn misfit(mesh: &TriangleMesh, values: &[f64], gradients: &[Vector]) -> f64 {
-    let (mut wrong, mut all) = (0.0, 0.0);
+    let (mut wrong, mut all, mut rounding) = (0.0, 0.0, 0.0);
     for &[a, b, c] in mesh.triangles() {
         for (from, to) in [(a, b), (b, c), (c, a)].map(|(p, q)| (p as usize, q as usize)) {
             let difference = values[to] - values[from];
@@ -168,31 +175,32 @@ fn misfit(mesh: &TriangleMesh, values: &[f64], gradients: &[Vector]) -> f64 {
             if error.is_finite() {
                 wrong += error;
                 all += difference.abs();
+                rounding += ROUNDING * values[from].abs();
             }
         }
     }
     // the gradient of a constant is zero, or rounding
-    if all > 0.0 { wrong / all } else { 0.0 }
+    if wrong <= rounding { 0.0 } else { wrong / all }
 }
 
-/// The gradient of what is chosen, from an array of its shape: three components
-/// (or two) for a scalar, three for each component of a vector.
-fn gradient_of(array: &DataArray, chosen: &ChosenArray) -> Option<Vec<Vector>> {
-    let of_vector = chosen.array.components > 1;
-    match chosen.component {
-        Some(Component::Magnitude) if of_vector => None,
-        Some(Component::Number(component)) if of_vector => {
-            let whole = array.components == 3 * chosen.array.components;
-            let start = 3 * component;
-            let part = |n: usize| array.component(start + n).filter(|_| whole);
-            let (x, y, z) = (part(0)?, part(1)?, part(2)?);
-            Some((0..x.len()).map(|n| Vector::new(x[n], y[n], z[n])).collect())
-        }
-        _ => vectors(array),
+/// How far values differ from a gradient, in words.
+fn difference(misfit: f64) -> String {
+    if misfit < 10.0 {
+        format!("values along edges differ from it by {:.0} %", 100.0 * misfit)
+    } else {
+        "values change far less than it says".to_owned()
     }
 }
 
-fn wrong_shape(array: &DataArray, chosen: &ChosenArray) -> FilterError {
+/// There is no array of this name, or one of those between its commas cannot be a
+/// component.
+fn missing(grid: &UnstructuredGrid, name: &str) -> FilterError {
+    let parts = name.split(',').map(str::trim);
+    let missing = parts.filter_map(|part| named(grid, part).err()).next();
+    missing.unwrap_or_else(|| FilterError::GradientParts { name: name.to_owned() })
+}
+
+fn wrong_shape(arrays: &GradientArrays, chosen: &ChosenArray) -> FilterError {
     let expected = match chosen.component {
         Some(Component::Magnitude) if chosen.array.components > 1 => {
             "the gradient of a magnitude is always recovered: leave --gradient out; none".to_owned()
@@ -202,28 +210,6 @@ fn wrong_shape(array: &DataArray, chosen: &ChosenArray) -> FilterError {
         }
         _ => "3".to_owned(),
     };
-    let (name, components) = (array.name.clone(), array.components);
+    let (name, components) = (arrays.name(), arrays.components());
     FilterError::GradientShape { name, components, expected }
-}
-
-/// Arrays whose names say that they are the gradient of `name`: first those that
-/// name it, then those called gradient and no more.
-fn conventional<'a>(grid: &'a UnstructuredGrid, name: &str) -> Vec<&'a DataArray> {
-    let name = name.to_lowercase();
-    let stems = ["grad", "gradient", "gradients", "nabla"];
-    let mut specific = Vec::new();
-    let mut general = Vec::new();
-    for array in grid.point_data.iter() {
-        let candidate = array.name.to_lowercase();
-        let plain: String = candidate.chars().filter(|c| !"_- ()[]{}".contains(*c)).collect();
-        let wanted: String = name.chars().filter(|c| !"_- ()[]{}".contains(*c)).collect();
-        if stems.iter().any(|s| plain == format!("{s}{wanted}") || plain == format!("{wanted}{s}"))
-        {
-            specific.push(array);
-        } else if stems.contains(&plain.as_str()) {
-            general.push(array);
-        }
-    }
-    specific.extend(general);
-    specific
 }

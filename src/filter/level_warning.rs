@@ -1,14 +1,24 @@
 //! Levels that have no contour.
 
 /// What people should know about levels, of all grids that were contoured at them: that
-/// the solution does not attain some, or is constant. `range` is that of all grids.
-pub fn level_warning(label: &str, [low, high]: [f64; 2], levels: &[f64]) -> Option<String> {
+/// the solution does not attain some, or is constant. The range is that of all grids.
+///
+/// Levels that `is_drawn` says have a line are not told: one beside a wall's value, by
+/// rounding, has the wall for its line.
+pub fn level_warning(
+    label: &str,
+    [low, high]: [f64; 2],
+    levels: &[f64],
+    is_drawn: impl Fn(usize) -> bool,
+) -> Option<String> {
     if levels.is_empty() {
         let text = format!("'{label}' is {low:?} everywhere: there is no level inside its range");
         return Some(text);
     }
-    let outside = levels.iter().filter(|&&level| level < low || level > high);
-    let outside: Vec<f64> = outside.copied().collect();
+    let is_outside =
+        |&(place, &level): &(usize, &f64)| (level < low || level > high) && !is_drawn(place);
+    let outside: Vec<f64> =
+        levels.iter().enumerate().filter(is_outside).map(|(_, &level)| level).collect();
     (!outside.is_empty()).then(|| {
         let outside = list(&outside);
         format!("no line at {outside}: outside the range {low:?} to {high:?} of '{label}'")
@@ -31,10 +41,11 @@ mod tests {
 
     #[test]
     fn only_levels_outside_are_told() {
-        assert_eq!(level_warning("u", [0.0, 1.0], &[0.0, 0.5, 1.0]), None);
-        let text = level_warning("u", [0.0, 1.0], &[-1.0, 0.5, 2.0]).unwrap();
+        assert_eq!(level_warning("u", [0.0, 1.0], &[0.0, 0.5, 1.0], |_| false), None);
+        let text = level_warning("u", [0.0, 1.0], &[-1.0, 0.5, 2.0], |_| false).unwrap();
         assert_eq!(text, "no line at -1.0, 2.0: outside the range 0.0 to 1.0 of 'u'");
-        let constant = level_warning("u", [3.0, 3.0], &[]).unwrap();
+        let constant = level_warning("u", [3.0, 3.0], &[], |_| false).unwrap();
+        assert_eq!(level_warning("u", [0.0, 1.0], &[-1e-9], |_| true), None);
         assert!(constant.starts_with("'u' is 3.0 everywhere"), "{constant}");
     }
 }

@@ -1,6 +1,7 @@
 //! Which arrays of a file contouring reads.
 
 use super::cells::GHOSTS;
+use super::gradient_arrays::plain;
 use super::gradients::GradientSource;
 use super::options::{ContourOptions, InterpolantKind};
 use crate::vtk::{ArrayInfo, AttributeKind, Description, Selection};
@@ -12,28 +13,37 @@ pub fn needed_arrays(options: &ContourOptions, file: &Description) -> Selection 
     let named = |wanted: &String| file.point_arrays.iter().any(|array| array.name == *wanted);
     let active = file.point_arrays.iter().find(|array| is(array, AttributeKind::Scalars));
     let chosen = options.array.as_ref().or(active.map(|array| &array.name));
-    let gradient = match &options.gradient {
-        GradientSource::Array(name) if options.interpolant == InterpolantKind::Pci => Some(name),
-        _ => None,
+    let gradient: Vec<String> = match &options.gradient {
+        GradientSource::Array(name) if options.interpolant == InterpolantKind::Pci => {
+            if named(name) { vec![name.clone()] } else { parts(name) }
+        }
+        _ => Vec::new(),
     };
     let may_be_gradient = |array: &ArrayInfo| {
         let automatic = options.gradient == GradientSource::Automatic;
-        automatic && options.interpolant == InterpolantKind::Pci && array.components > 1
+        let component = chosen.is_some_and(|name| plain(&array.name).contains(&plain(name)));
+        let is_candidate = array.components > 1 || component;
+        automatic && options.interpolant == InterpolantKind::Pci && is_candidate
     };
     let is_needed = |array: &&ArrayInfo| {
         chosen == Some(&array.name)
-            || gradient == Some(&array.name)
+            || gradient.contains(&array.name)
             || may_be_gradient(array)
             || options.pde.is_some() && array.components == 1
             || is(array, AttributeKind::RationalWeights)
     };
-    let is_known = chosen.is_some_and(named) && gradient.is_none_or(named);
+    let is_known = chosen.is_some_and(named) && gradient.iter().all(named);
     let points = file.point_arrays.iter().filter(|array| !is_known || is_needed(array));
     let shapes_cells =
         |array: &&ArrayInfo| array.name == GHOSTS || is(array, AttributeKind::HigherOrderDegrees);
     let cells = file.cell_arrays.iter().filter(|array| !is_known || shapes_cells(array));
     let names = |array: &ArrayInfo| array.name.clone();
     Selection::AtMost { points: points.map(names).collect(), cells: cells.map(names).collect() }
+}
+
+/// The names between the commas of one such as `ux,uy`.
+fn parts(name: &str) -> Vec<String> {
+    name.split(',').map(|part| part.trim().to_owned()).collect()
 }
 
 fn is(array: &ArrayInfo, role: AttributeKind) -> bool {

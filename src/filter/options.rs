@@ -28,6 +28,9 @@ pub struct ContourOptions {
     pub component: Option<Component>,
     /// Where its gradient comes from.
     pub gradient: GradientSource,
+    /// Points no further apart than this are made one, in units of length; 0 for those at
+    /// exactly the same place. Not given: every point stays by itself.
+    pub merge_points: Option<f64>,
     /// The levels.
     pub levels: Levels,
     /// How curves are drawn.
@@ -68,6 +71,7 @@ impl Default for ContourOptions {
             array: None,
             component: None,
             gradient: GradientSource::default(),
+            merge_points: None,
             levels: Levels::Equal { count: 10, range: None },
             method: Method::default(),
             spacing: None,

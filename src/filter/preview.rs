@@ -2,6 +2,7 @@
 
 use super::error::FilterError;
 use super::gradients::GradientOrigin;
+use super::merge_points::merge_points;
 use super::options::ContourOptions;
 use super::solution::{Interpolated, Solution};
 use crate::contour::CellRanges;
@@ -38,7 +39,9 @@ pub struct Preview {
 /// # Errors
 /// As [`contour`](super::contour()), but for levels.
 pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Preview, FilterError> {
-    let grid = &lagrange_grid(grid);
+    let grid = lagrange_grid(grid);
+    let grid = merge_points(&grid, options.merge_points)?;
+    let grid = grid.as_ref();
     let solution = Solution::new(grid, options)?;
     let Interpolated { cubics, .. } = solution.interpolant(options.predictor);
     let mut ranges = CellRanges::new(cubics.as_ref());

@@ -4,11 +4,11 @@ use super::cells::{Cells, Tetrahedra, Triangles, is_ghost};
 use super::chosen_array::ChosenArray;
 use super::error::FilterError;
 use super::gradients::Gradients;
+use super::known_pde::KnownPde;
 use super::options::{ContourOptions, InterpolantKind};
 use crate::contour::CellRanges;
 use crate::field::Field;
-use crate::interpolant::{Equation, Linear, Pci, Predictor, TriangleCubics};
-use crate::pde::Pde;
+use crate::interpolant::{Equation, Linear, Pci, PdeFit, Predictor, TriangleCubics};
 use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::UnstructuredGrid;
 
@@ -32,18 +32,14 @@ pub struct Solution<'a> {
     equation: Option<KnownPde>,
 }
 
-/// A PDE, and the values of each point array that it names.
-struct KnownPde {
-    pde: Pde,
-    arrays: Vec<Vec<f64>>,
-}
-
 /// An interpolant, and what it could not do.
 pub struct Interpolated<'a> {
     /// The interpolant.
     pub cubics: Box<dyn TriangleCubics + 'a>,
     /// Triangles in which the PDE could not be used.
     pub singular: usize,
+    /// How well the PDE fits the data; nothing without a PDE.
+    pub pde_fit: Option<PdeFit>,
 }
 
 impl<'a> Solution<'a> {
@@ -55,7 +51,7 @@ impl<'a> Solution<'a> {
     /// has no triangles.
     pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
-        let equation = equation(grid, options)?;
+        let equation = KnownPde::new(grid, options)?;
         let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
         let cells = || grid.types.iter().copied().collect();
         let Some(triangles) = triangles else {
@@ -93,14 +89,16 @@ impl<'a> Solution<'a> {
         let field = Field { values: &self.values, gradients: &self.gradients.vectors };
         if self.interpolant == InterpolantKind::Linear {
             let cubics = Box::new(Linear::new(mesh, &self.values));
-            return Interpolated { cubics, singular: 0 };
+            return Interpolated { cubics, singular: 0, pde_fit: None };
         }
-        let Some(KnownPde { pde, arrays }) = &self.equation else {
-            return Interpolated { cubics: Box::new(Pci::new(mesh, field)), singular: 0 };
+        let Some(KnownPde { pde, arrays, .. }) = &self.equation else {
+            let cubics = Box::new(Pci::new(mesh, field));
+            return Interpolated { cubics, singular: 0, pde_fit: None };
         };
         let pci = Pci::with_pde(mesh, field, &Equation { pde, arrays, predictor });
         let singular = pci.singular();
-        Interpolated { cubics: Box::new(pci), singular }
+        let pde_fit = Some(PdeFit::new(&pci, pde));
+        Interpolated { cubics: Box::new(pci), singular, pde_fit }
     }
 
     /// The least and the greatest value of the interpolant.
@@ -116,25 +114,13 @@ impl<'a> Solution<'a> {
         ranges.attained(cubics).ok_or_else(no_values)
     }
 
+    /// What people should know about the PDE's parameters, a line each.
+    pub fn pde_warnings(&self) -> &[String] {
+        self.equation.as_ref().map_or(&[], |known| &known.warnings)
+    }
+
     /// Whether a triangle belongs to another process.
     pub fn is_ghost(&self, triangle: usize) -> bool {
         is_ghost(self.grid, self.triangles.parents[triangle])
     }
-}
-
-/// The PDE and the values of the point arrays that it names.
-fn equation(
-    grid: &UnstructuredGrid,
-    options: &ContourOptions,
-) -> Result<Option<KnownPde>, FilterError> {
-    let Some(text) = &options.pde else { return Ok(None) };
-    if options.interpolant == InterpolantKind::Linear {
-        return Err(FilterError::LinearPde);
-    }
-    let scalars: Vec<_> = grid.point_data.iter().filter(|array| array.components == 1).collect();
-    let names: Vec<String> = scalars.iter().map(|array| array.name.clone()).collect();
-    let pde = Pde::parse(text, &options.parameters, &names)?;
-    let values = |&place: &usize| scalars[place].to_f64().unwrap_or_default();
-    let arrays = pde.used_arrays().iter().map(values).collect();
-    Ok(Some(KnownPde { pde, arrays }))
 }

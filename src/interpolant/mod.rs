@@ -10,12 +10,14 @@ mod hermite;
 mod least_squares;
 mod linear;
 mod pci;
+mod pde_fit;
 mod tricubic;
 
 pub use discontinuous::DiscontinuousTricubic;
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
 pub use pci::Pci;
+pub use pde_fit::PdeFit;
 pub use tricubic::Tricubic;
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};

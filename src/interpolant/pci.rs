@@ -100,14 +100,9 @@ fn hermite(mesh: &TriangleMesh, field: &Field, triangle: usize, centre: f64) -> 
     TriangleCubic::assemble(values, toward, centre)
 }
 
-/// The cubic whose `b_111` makes it reproduce quadratics:
-/// a quarter of the edge coefficients less a sixth of the vertex coefficients.
+/// The cubic of values and gradients that reproduces quadratics.
 fn quadratic_precision(mesh: &TriangleMesh, field: &Field, triangle: usize) -> TriangleCubic {
-    let mut cubic = hermite(mesh, field, triangle, 0.0);
-    let [a, ab, ac, ba, _, ca, b, bc, cb, c] = cubic.coefficients;
-    let edges = (ab + ba) + (bc + cb) + (ca + ac);
-    cubic.coefficients[TriangleCubic::CENTRE] = edges / 4.0 - (a + b + c) / 6.0;
-    cubic
+    hermite(mesh, field, triangle, 0.0).with_quadratic_centre()
 }
 
 /// The `b_111` of each triangle with which `L p = g` at its centroid (thesis,

@@ -30,6 +30,7 @@ use super::tape::Tape;
 pub struct Pde {
     text: String,
     arrays: Vec<usize>,
+    unused_parameters: Vec<usize>,
     operator: Tape<6>,
     right_hand_side: Tape<1>,
     /// g, then its derivatives with respect to u, ux, uy, uz.
@@ -77,9 +78,11 @@ impl Pde {
         let zero = graph.constant(0.0);
         let mut slope = |input| graph.derivative(g, input).unwrap_or(zero);
         let [u, ux, uy, uz] = [U, U + 1, U + 2, U + 3].map(&mut slope);
+        let (arrays, unused_parameters) = names.into_used();
         Ok(Pde {
             text: text.to_owned(),
-            arrays: names.into_used(),
+            arrays,
+            unused_parameters,
             operator: Tape::compile(&graph, sides.coefficients),
             right_hand_side: Tape::compile(&graph, [g]),
             linearization: Tape::compile(&graph, [g, u, ux, uy, uz]),
@@ -148,6 +151,12 @@ impl Pde {
     /// their values.
     pub fn used_arrays(&self) -> &[usize] {
         &self.arrays
+    }
+
+    /// The parameters that the equation does not name, as indices into the list given to
+    /// [`parse`](Pde::parse), ascending.
+    pub fn unused_parameters(&self) -> &[usize] {
+        &self.unused_parameters
     }
 
     /// An empty batch for this equation.

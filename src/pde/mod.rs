@@ -25,24 +25,7 @@
 //!
 //! # The language
 //!
-//! An equation has one `=`. Second derivatives `uxx uyy uzz uxy uxz uyz` (`uyx`
-//! is `uxy`) and `laplacian(u)` or `lap(u)`, which is uxx + uyy + uzz, may stand
-//! on both sides, added and multiplied by coefficients of x, y, z, parameters
-//! and constants. Everything else may stand on both sides too.
-//!
-//! - Numbers: `1e-3`, `.5`, `2.`; products are written: `2*x`, not `2x`.
-//! - Operators, tightest first: `^` or `**` (from the right: `2^3^2` is 512),
-//!   the sign (`-x^2` is -(x²)), `* /`, `+ -`.
-//! - Names: `x y z u ux uy uz`, then parameters, then point arrays, then the
-//!   constants `pi` and `e`: the first meaning found counts. A parameter must
-//!   not have the name of a coordinate, of u or of a derivative; an array may,
-//!   and is then written between backquotes, as is one whose name is no word:
-//!   `` `my array` ``.
-//! - Functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log ln
-//!   log10 log2 sqrt cbrt abs sign min max pow floor ceil hypot erf heaviside`.
-//!   `log` is the natural logarithm, `atan2(y, x)` takes y first, `sign(0)` is 0,
-//!   `heaviside(0)` is 1/2, `min` and `max` of a NaN are NaN. A function's name
-//!   is one only before a parenthesis.
+#![doc = include_str!("language.md")]
 //!
 //! # How it works
 //!
@@ -77,4 +60,8 @@ mod tree;
 
 pub use equation::{Linearization, Pde};
 pub use error::{PdeError, Problem};
+pub use names::is_free_name;
 pub use sample::{Batch, LANES, Sample};
+
+/// The language of equations in one page, for people: plain text that is Markdown too.
+pub const LANGUAGE: &str = include_str!("language.md");

@@ -26,6 +26,7 @@ pub(super) struct Names<'a> {
     parameters: &'a [(String, f64)],
     arrays: &'a [String],
     used: Vec<usize>,
+    used_parameters: Vec<bool>,
 }
 
 impl<'a> Names<'a> {
@@ -37,16 +38,24 @@ impl<'a> Names<'a> {
         for (i, parameter) in parameters.iter().enumerate() {
             check(parameter, &parameters[..i])?;
         }
-        Ok(Names { parameters, arrays, used: Vec::new() })
+        let used_parameters = vec![false; parameters.len()];
+        Ok(Names { parameters, arrays, used: Vec::new(), used_parameters })
     }
 
     /// The meaning of a bare name: a coordinate, `u` or a derivative, else a
     /// parameter, else an array, else a constant.
     pub fn resolve(&mut self, name: &str) -> Option<Leaf> {
         reserved(name)
-            .or_else(|| number(self.parameters.iter().map(|p| (&*p.0, p.1)), name))
+            .or_else(|| self.parameter(name))
             .or_else(|| self.array(name))
             .or_else(|| number(CONSTANTS.into_iter(), name))
+    }
+
+    /// The parameter of this name, which is thereby used.
+    fn parameter(&mut self, name: &str) -> Option<Leaf> {
+        let place = self.parameters.iter().position(|parameter| parameter.0 == name)?;
+        self.used_parameters[place] = true;
+        Some(Leaf::Number(self.parameters[place].1))
     }
 
     /// The point array of this name, which is thereby used.
@@ -60,9 +69,12 @@ impl<'a> Names<'a> {
         Some(Leaf::Input(INPUTS.len() + slot))
     }
 
-    /// The arrays used so far, in the order of their first use.
-    pub fn into_used(self) -> Vec<usize> {
-        self.used
+    /// The arrays used so far, in the order of their first use, and the parameters not
+    /// used, as places in the lists given.
+    pub fn into_used(self) -> (Vec<usize>, Vec<usize>) {
+        let used = self.used_parameters;
+        let unused = (0..used.len()).filter(|&place| !used[place]).collect();
+        (self.used, unused)
     }
 
     /// The problem of a name that stands for nothing.
@@ -104,6 +116,13 @@ fn check((name, value): &(String, f64), earlier: &[(String, f64)]) -> Result<(),
         return Err(Problem::ParameterValue(name.clone()));
     }
     Ok(())
+}
+
+/// Whether a parameter may have this name without hiding a meaning that the name has: a
+/// coordinate, `u`, a derivative or a constant.
+pub fn is_free_name(name: &str) -> bool {
+    let is_constant = CONSTANTS.iter().any(|constant| constant.0 == name);
+    is_name(name) && reserved(name).is_none() && !is_constant
 }
 
 fn reserved(name: &str) -> Option<Leaf> {
@@ -186,7 +205,7 @@ mod tests {
         assert_eq!(names.resolve("pi"), Some(Leaf::Input(7)));
         assert_eq!(names.array("u"), Some(Leaf::Input(8)));
         assert_eq!(names.resolve("nothing"), None);
-        assert_eq!(names.into_used(), [2, 0]);
+        assert_eq!(names.into_used(), (vec![2, 0], vec![]));
     }
 
     #[test]

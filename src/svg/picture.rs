@@ -36,8 +36,12 @@ pub struct Picture {
 /// The longer side of the drawing, in user units (CSS pixels).
 const SIZE: f64 = 720.0;
 const MARGIN: f64 = 20.0;
-/// The place for the colour bar and its labels.
+/// The place for the colour bar and its labels; more if the title is longer.
 const BAR: f64 = 110.0;
+/// From the drawing to the bar.
+const BEFORE_BAR: f64 = 24.0;
+/// The width of a bold letter of the title; wide ones are wider, narrow ones narrower.
+const LETTER: f64 = 8.0;
 
 impl Picture {
     /// Writes the picture as an SVG document.
@@ -46,7 +50,8 @@ impl Picture {
     /// Those of `out`.
     pub fn write(&self, mut out: impl Write) -> io::Result<()> {
         let view = View::of(self);
-        let (width, height) = (view.width + 2.0 * MARGIN + BAR, view.height + 2.0 * MARGIN);
+        let (width, height) =
+            (view.width + 2.0 * MARGIN + self.bar_width(), view.height + 2.0 * MARGIN);
         writeln!(
             out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
@@ -100,7 +105,7 @@ impl Picture {
     }
 
     fn write_bar(&self, out: &mut impl Write, width: f64, height: f64) -> io::Result<()> {
-        let x = width - MARGIN - BAR + 24.0;
+        let x = width - MARGIN - self.bar_width() + BEFORE_BAR;
         let title = escaped(&self.title);
         writeln!(
             out,
@@ -109,6 +114,10 @@ impl Picture {
         )?;
         let place = Place { x, y: MARGIN + 22.0, height: height - 2.0 * MARGIN - 26.0 };
         write!(out, "{}", colour_bar(&self.values, &place))
+    }
+
+    fn bar_width(&self) -> f64 {
+        BAR.max(BEFORE_BAR + LETTER * self.title.chars().count() as f64)
     }
 
     fn ends(&self) -> (f64, f64) {
@@ -194,6 +203,18 @@ mod tests {
         assert!(text.contains("<path d=\"M20 740c0-360 360-720 720-720\"/>"), "{text}");
         assert!(text.contains("a &lt; b"));
         assert!(text.contains("M20 740l720 0M740 740l0-720"), "{text}");
+    }
+
+    #[test]
+    fn a_long_title_has_its_place() {
+        let width = |title: &str| {
+            let text = written(&Picture { title: title.to_owned(), ..Picture::default() });
+            let start = text.find(" width=\"").unwrap() + 8;
+            text[start..].split('"').next().unwrap().parse::<f64>().unwrap()
+        };
+        assert_eq!(width("u"), width("velocity"));
+        assert!(width("DistanceToCenter") > width("u"));
+        assert!(width(&"W".repeat(40)) > 40.0 * LETTER);
     }
 
     #[test]

@@ -120,6 +120,14 @@ pub struct ContourArguments {
     #[command(flatten)]
     pub scalars: ScalarArguments,
 
+    /// Make points one that are no further apart than this, in the mesh's unit; 0 (or no
+    /// number) for points at exactly the same place, as discontinuous elements have them
+    #[arg(
+        long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0",
+        help_heading = "What to contour", value_parser = values::not_negative
+    )]
+    merge_points: Option<f64>,
+
     #[command(flatten)]
     pub levels: LevelArguments,
 
@@ -151,6 +159,7 @@ impl ContourArguments {
     pub fn options(&self) -> ContourOptions {
         let Self { levels, interpolant, lines, output_options, .. } = self;
         ContourOptions {
+            merge_points: self.merge_points,
             levels: levels.levels(),
             method: lines.method.into(),
             spacing: lines.spacing,

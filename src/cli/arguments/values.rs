@@ -47,6 +47,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     if value > 0.0 { Ok(value) } else { Err("not above zero".to_owned()) }
 }
 
+/// Reads a number that is not below zero.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    let value = level(text)?;
+    if value >= 0.0 { Ok(value) } else { Err("below zero".to_owned()) }
+}
+
 /// Reads `LO,HI`.
 pub fn range(text: &str) -> Result<[f64; 2], String> {
     let (low, high) = text.split_once(',').ok_or("give two numbers, as LO,HI")?;

@@ -15,6 +15,7 @@ mod start;
 mod stitch;
 mod trace;
 mod traces;
+mod walls;
 
 pub use bezier::Bezier;
 pub use contour_lines::{ContourLines, Counts, LinePoint, Polyline};
@@ -29,6 +30,7 @@ use crate::interpolant::TriangleCubics;
 use line_builder::add_level;
 use trace::{Tracing, trace};
 use traces::Traces;
+use walls::Walls;
 
 /// Cells traced at a time by one thread.
 const CHUNK: usize = 64;
@@ -51,13 +53,45 @@ pub fn contour_lines(
     method: Method,
     resolution: Resolution,
 ) -> ContourLines {
+    let no_walls = |_: &Rounding, _: &[u32]| Walls::default();
+    lines_between(interpolant, ranges, levels, (method, resolution), no_walls)
+}
+
+/// The same for a solution with boundary conditions: where the values on the boundary
+/// are the level and the gradients there nearly agree, the boundary is the contour.
+///
+/// A gradient that is recovered, or projected, has a small component along a boundary
+/// on which the solution is constant. The cubics weave about that constant there, and
+/// their contour is a row of dashes; this draws the boundary's edges instead. Inner
+/// edges, and edges that are far from the level between their ends, stay as they are.
+pub fn contour_lines_with_walls(
+    interpolant: &dyn TriangleCubics,
+    ranges: &CellRanges,
+    levels: &[f64],
+    method: Method,
+    resolution: Resolution,
+) -> ContourLines {
+    let walls =
+        |rounding: &Rounding, cells: &[u32]| Walls::new(interpolant, ranges, rounding, cells);
+    lines_between(interpolant, ranges, levels, (method, resolution), walls)
+}
+
+/// Contour lines between the walls that `walls` finds in the active cells of a level.
+fn lines_between(
+    interpolant: &dyn TriangleCubics,
+    ranges: &CellRanges,
+    levels: &[f64],
+    (method, resolution): (Method, Resolution),
+    walls: impl Fn(&Rounding, &[u32]) -> Walls,
+) -> ContourLines {
     let mut lines = ContourLines { levels: levels.to_vec(), ..Default::default() };
     lines.counts.unusable = ranges.unusable();
     let resolution = resolution.no_finer_than(interpolant.mesh());
     for (place, &level) in levels.iter().enumerate() {
         let cells = ranges.cells_at(level, |range| rounding::of_range(range, level));
         let rounding = Rounding::new(interpolant.mesh(), ranges, level, &cells);
-        let tracing = Tracing { level, rounding: &rounding, method, resolution };
+        let walls = walls(&rounding, &cells);
+        let tracing = Tracing { level, rounding: &rounding, walls: &walls, method, resolution };
         lines.counts.active += cells.len();
         let mut traces = trace_cells(interpolant, &tracing, &cells);
         traces.add_flat_edges(interpolant.mesh());

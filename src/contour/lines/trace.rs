@@ -12,6 +12,7 @@ use super::piece::{Cell, Piece};
 use super::situation::{Division, Situation, situation};
 use super::start::{first_piece, flat_edges};
 use super::traces::Traces;
+use super::walls::Walls;
 use crate::bernstein::{Sign, TriangleCubic};
 use crate::contour::rounding::Rounding;
 use crate::mesh::TriangleFrame;
@@ -23,6 +24,8 @@ pub struct Tracing<'a> {
     pub level: f64,
     /// How near to the level counts as on it.
     pub rounding: &'a Rounding,
+    /// Parts of the boundary that lie on the level.
+    pub walls: &'a Walls,
     /// How arcs are drawn.
     pub method: Method,
     /// How finely.
@@ -75,13 +78,20 @@ fn above_level(
     points: [u32; 3],
     cubic: &TriangleCubic,
 ) -> Option<(TriangleCubic, f64)> {
+    let Tracing { rounding, walls, level, .. } = tracing;
     let value = |corner: usize| cubic.edge((corner + 2) % 3).coefficients[0];
-    let rounding = [0, 1, 2].map(|n| tracing.rounding.at(points[n], value(n)));
+    let rounded = [0, 1, 2].map(|n| rounding.at(points[n], value(n)));
+    let near = [0, 1, 2].map(|n| {
+        let is_given = walls.has_point(points[n]);
+        if is_given { rounding.at_wall(points[n], value(n)) } else { rounded[n] }
+    });
+    let wall = [0, 1, 2].map(|n| walls.has_edge(points[(n + 1) % 3], points[(n + 2) % 3]));
     let whole = TriangleCubic::from_coefficients(|exponents| {
-        let difference = cubic.coefficient(exponents) - tracing.level;
+        let difference = cubic.coefficient(exponents) - level;
+        let on_wall = (0..3).any(|edge| wall[edge] && exponents[edge] == 0);
         // a coefficient of an edge belongs to both its ends
-        let near = (0..3).filter(|&n| exponents[n] > 0).map(|n| rounding[n]).fold(0.0, f64::max);
-        if difference.abs() <= near { 0.0 } else { difference }
+        let near = (0..3).filter(|&n| exponents[n] > 0).map(|n| near[n]).fold(0.0, f64::max);
+        if on_wall || difference.abs() <= near { 0.0 } else { difference }
     });
     let (low, high) = whole.bounds();
     let size = high.max(-low);
@@ -89,7 +99,7 @@ fn above_level(
         return None;
     }
     let scale = if size > 0.0 { size.log2().floor().exp2() } else { 1.0 };
-    let rounding = rounding.into_iter().fold(0.0, f64::max) / scale;
+    let rounding = rounded.into_iter().fold(0.0, f64::max) / scale;
     Some((TriangleCubic::new(whole.coefficients.map(|c| c / scale)), rounding))
 }
 

@@ -1,0 +1,194 @@
+//! What the filter tells people: of a PDE or a gradient that is hardly the solution's,
+//! and silence where all is well.
+
+mod support;
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use support::meshes::{Random, random_square};
+use vtu2contour::contour::Levels;
+use vtu2contour::filter::{ContourOptions, GradientSource, contour};
+use vtu2contour::mesh::Vector;
+use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
+
+fn sample(name: &str) -> UnstructuredGrid {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(name);
+    VtuFile::open(file).unwrap().read(&Selection::All).unwrap().data
+}
+
+fn warnings(grid: &UnstructuredGrid, options: &ContourOptions) -> Vec<String> {
+    contour(grid, options, &mut |_| {}).unwrap().report.warnings
+}
+
+fn with_pde(pde: &str) -> ContourOptions {
+    let parameters = if pde.contains("k2") { vec![("k2".to_owned(), 84.39413)] } else { vec![] };
+    ContourOptions { pde: Some(pde.to_owned()), parameters, ..ContourOptions::default() }
+}
+
+#[test]
+fn the_right_pde_is_used_in_silence() {
+    for (name, pde) in [
+        ("islands.vtu", "uxx + uyy = -k2*u"),
+        ("plate_with_holes.vtu", "uxx + uyy = -6"),
+        ("no_gradient.vtu", "uxx + uyy = 0"),
+        ("problem4.vtu", "uxx + uyy = laplacian"),
+    ] {
+        assert_eq!(warnings(&sample(name), &with_pde(pde)), Vec::<String>::new(), "{name}");
+    }
+}
+
+/// sin(kx) cos(ky) on random points, with its gradient: 150 of them are eight a
+/// wavelength.
+fn coarse(seed: u64, points: usize) -> UnstructuredGrid {
+    let k = 3.0 * PI;
+    let mesh = random_square(&mut Random(seed), points);
+    let coordinates = mesh.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
+    for triangle in mesh.triangles() {
+        grid.push_cell(5, &triangle.map(i64::from));
+    }
+    let values = mesh.points().iter().map(|p| (k * p.x).sin() * (k * p.y).cos());
+    let gradient = |p: &Vector| {
+        let (sx, cx, sy, cy) = ((k * p.x).sin(), (k * p.x).cos(), (k * p.y).sin(), (k * p.y).cos());
+        [k * cx * cy, -k * sx * sy, 0.0]
+    };
+    let gradients = mesh.points().iter().flat_map(gradient).collect::<Vec<f64>>();
+    grid.point_data.push(DataArray::new("u", 1, values.collect::<Vec<f64>>()));
+    grid.point_data.push(DataArray::new("gradient", 3, gradients));
+    grid
+}
+
+#[test]
+fn coarse_meshes_do_not_make_a_right_pde_wrong() {
+    let k = 3.0 * PI;
+    for seed in 0..20 {
+        let grid = coarse(seed, 150);
+        let right = with_pde(&format!("uxx + uyy = -2*{k}^2*u"));
+        assert_eq!(warnings(&grid, &right), Vec::<String>::new(), "seed {seed}");
+        let wrong = with_pde(&format!("uxx + uyy = 2*{k}^2*u"));
+        assert_eq!(warnings(&grid, &wrong).len(), 1, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_wrong_pde_is_noticed() {
+    for (name, pde) in [
+        ("islands.vtu", "uxx + uyy = k2*u"),
+        ("islands.vtu", "uxx + uyy = -2*k2*u"),
+        ("islands.vtu", "uxx + uyy = -k2*u/2"),
+        ("islands.vtu", "uxx + uyy = 500"),
+        ("islands.vtu", "uxx + uyy = 0"),
+        ("plate_with_holes.vtu", "uxx + uyy = 6"),
+        ("plate_with_holes.vtu", "uxx + uyy = -12"),
+        ("problem4.vtu", "uxx + uyy = -laplacian"),
+        ("problem4.vtu", "uxx + uyy = 10*laplacian"),
+    ] {
+        let told = warnings(&sample(name), &with_pde(pde));
+        assert!(told.iter().any(|w| w.contains("the PDE does not fit")), "{name} {pde}: {told:?}");
+    }
+}
+
+#[test]
+fn a_field_array_of_one_number_is_a_parameter() {
+    let grid = sample("islands.vtu");
+    let options = ContourOptions {
+        pde: Some("uxx + uyy = -k2*u".to_owned()),
+        parameters: Vec::new(),
+        ..ContourOptions::default()
+    };
+    assert_eq!(warnings(&grid, &options), Vec::<String>::new());
+    // a parameter that is given wins: with this one the PDE does not fit
+    let parameters = vec![("k2".to_owned(), -84.0)];
+    let given = ContourOptions { parameters, ..options.clone() };
+    assert_eq!(warnings(&grid, &given).len(), 1);
+    // one of several numbers cannot be meant, and is told
+    let mut grid = grid;
+    grid.field_data.push(DataArray::new("k2", 1, vec![84.4, 1.0]));
+    assert!(refusal(&grid, &options).contains("'k2' is a field array, but not of one number"));
+}
+
+fn refusal(grid: &UnstructuredGrid, options: &ContourOptions) -> String {
+    contour(grid, options, &mut |_| {}).err().unwrap().to_string()
+}
+
+#[test]
+fn names_that_cannot_stand_in_a_pde_are_explained() {
+    let grid = sample("islands.vtu");
+    let told = refusal(&grid, &with_pde("uxx + uyy = Gradients"));
+    assert!(told.contains("'Gradients' is a point array of 3 components"), "{told}");
+    let told = refusal(&sample("problem4.vtu"), &with_pde("uxx + uyy = area"));
+    assert!(told.contains("'area' is a cell array"), "{told}");
+}
+
+#[test]
+fn a_parameter_that_is_not_used_is_told() {
+    let parameters = vec![("k2".to_owned(), 84.39413), ("zz".to_owned(), 3.0)];
+    let options = ContourOptions { parameters, ..with_pde("uxx + uyy = -k2*u") };
+    let told = warnings(&sample("islands.vtu"), &options);
+    assert_eq!(told, ["the PDE does not use the parameter 'zz'"]);
+}
+
+#[test]
+fn a_gradient_of_a_constant_must_be_zero() {
+    let mut grid = coarse(1, 150);
+    let points = grid.points.tuples();
+    grid.point_data.push(DataArray::new("u", 1, vec![2.0; points]));
+    let told = warnings(&grid, &ContourOptions::default());
+    let expected = "array 'gradient' is not used as the gradient of 'u': values change far less";
+    assert!(told[0].starts_with(expected), "{told:?}");
+    // rounding is zero
+    grid.point_data.push(DataArray::new("gradient", 3, vec![1e-13; 3 * points]));
+    assert!(!warnings(&grid, &ContourOptions::default()).concat().contains("not used"));
+}
+
+#[test]
+fn components_of_the_gradient_may_be_arrays_of_their_own() {
+    let mut grid = coarse(1, 400);
+    let gradient = grid.point_data.get("gradient").unwrap().clone();
+    for (name, axis) in [("a", 0), ("b", 1)] {
+        let values = gradient.component(axis).unwrap();
+        grid.point_data.push(DataArray::new(name, 1, values));
+    }
+    let named = |name: &str| ContourOptions {
+        array: Some("u".to_owned()),
+        gradient: GradientSource::Array(name.to_owned()),
+        ..ContourOptions::default()
+    };
+    let lines = |options| contour(&grid, options, &mut |_| {}).unwrap().lines.points;
+    assert_eq!(lines(&named("a,b")), lines(&named("gradient")));
+    assert!(refusal(&grid, &named("a,c")).contains("no point array 'c'"));
+    assert!(refusal(&grid, &named("a,gradient")).contains("two or three arrays"));
+}
+
+#[test]
+fn cells_with_points_of_their_own_are_told_and_can_be_merged() {
+    let whole = coarse(2, 400);
+    let mut torn = UnstructuredGrid::new(corners_of(&whole, &whole.points));
+    for cell in 0..whole.types.len() as i64 {
+        torn.push_cell(5, &[3 * cell, 3 * cell + 1, 3 * cell + 2]);
+    }
+    for array in whole.point_data.iter() {
+        torn.point_data.push(corners_of(&whole, array));
+    }
+    let levels = Levels::Explicit(vec![0.3]);
+    let options = ContourOptions { levels, ..ContourOptions::default() };
+    let lines = |grid: &UnstructuredGrid, options: &ContourOptions| {
+        contour(grid, options, &mut |_| {}).unwrap().lines.lines.len()
+    };
+    let told = warnings(&torn, &options).concat();
+    assert!(told.contains("points are at the place of another") && told.contains("--merge-points"));
+    assert_eq!(warnings(&whole, &options), Vec::<String>::new());
+    assert!(lines(&torn, &options) > 5 * lines(&whole, &options));
+    let merging = ContourOptions { merge_points: Some(0.0), ..options.clone() };
+    assert_eq!(warnings(&torn, &merging), Vec::<String>::new());
+    assert_eq!(lines(&torn, &merging), lines(&whole, &options));
+}
+
+/// The tuples of an array at the corners of all cells.
+fn corners_of(grid: &UnstructuredGrid, array: &DataArray) -> DataArray {
+    let (values, width) = (array.to_f64().unwrap(), array.components);
+    let tuple = |&point: &i64| values[point as usize * width..][..width].to_vec();
+    let corners = grid.cells.iter().flatten().flat_map(tuple).collect::<Vec<f64>>();
+    DataArray::new(array.name.clone(), width, corners)
+}

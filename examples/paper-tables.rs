@@ -8,11 +8,13 @@
 #[path = "../tests/support/mod.rs"]
 mod support;
 
+use support::tables_of_surfaces::TABLES;
 use support::{table_5_3, table_5_7};
 
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let tables: [(&str, fn()); 2] = [("5.3", print_5_3), ("5.7", print_5_7)];
+    let tables: [(&str, fn()); 4] =
+        [("5.3", print_5_3), ("5.7", print_5_7), ("5.10", print_5_10), ("5.11", print_5_11)];
     for (number, print) in tables {
         if wanted.is_empty() || wanted.iter().any(|name| name == number) {
             print();
@@ -53,4 +55,37 @@ fn print_5_7() {
              | {of_points:.2e} |"
         );
     }
+}
+
+fn print_5_10() {
+    print_surfaces(0);
+}
+
+fn print_5_11() {
+    print_surfaces(1);
+}
+
+fn print_surfaces(which: usize) {
+    let table = TABLES[which];
+    println!(
+        "Table {}: average error at the middles of the triangles, problem {}, level {}",
+        table.number, table.problem.number, table.level
+    );
+    println!();
+    println!("| grid | nSide | thesis | triangles | ours | triangles | linear (VTK) | triangles |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for row in table.compare(usize::MAX) {
+        println!(
+            "| {0}³ | {1} | {2:.2e} | {3} | {4:.2e} | {5} | {6:.2e} | {7} |",
+            row.grid,
+            row.points,
+            row.thesis.0,
+            row.thesis.1,
+            row.ours.0,
+            row.ours.1,
+            row.linear.0,
+            row.linear.1
+        );
+    }
+    println!();
 }

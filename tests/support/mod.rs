@@ -13,4 +13,5 @@ pub mod problem4;
 pub mod problems_3d;
 pub mod table_5_3;
 pub mod table_5_7;
+pub mod tables_of_surfaces;
 pub mod tetrahedra;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use vtu2contour::contour::Levels;
+use vtu2contour::contour::surface::Fineness;
 use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour, preview};
 use vtu2contour::vtk::{AtomicFile, PvdEntry, UnstructuredGrid};
 
@@ -243,26 +244,48 @@ fn real_name(path: &Path) -> PathBuf {
 
 /// What was done with a part, for those who want to know.
 fn described(contoured: &Contoured, name: Option<&str>) -> String {
-    let Contoured { lines, report, .. } = contoured;
-    let closed = lines.lines.iter().filter(|line| line.closed).count();
-    format!(
-        "{}array '{}', gradient {}, range {:?} to {:?}\n\
-         {} triangles; {} active at {} levels, {} subdivided, {} unresolved\n\
-         tolerance {:e}, spacing {:e}\n\
-         {} lines ({closed} closed), {} points",
-        name.map_or(String::new(), |name| format!("{name}\n")),
+    let Contoured { lines, surface, report, .. } = contoured;
+    let mut text = name.map_or(String::new(), |name| format!("{name}\n"));
+    text += &format!(
+        "array '{}', gradient {}, range {:?} to {:?}, {} levels",
         report.label,
         report.gradient,
         report.range[0],
         report.range[1],
-        report.triangles,
-        report.counts.active,
-        lines.levels.len(),
-        report.counts.divided,
-        report.counts.unresolved,
-        report.resolution.tolerance,
-        report.resolution.spacing,
-        lines.lines.len(),
-        lines.points.len(),
-    )
+        report.levels.len(),
+    );
+    if report.triangles > 0 {
+        let (counts, closed) =
+            (report.counts, lines.lines.iter().filter(|line| line.closed).count());
+        text += &format!(
+            "\n{} triangles; {} active, {} subdivided, {} unresolved\n\
+             tolerance {:e}, spacing {:e}: {} lines ({closed} closed), {} points",
+            report.triangles,
+            counts.active,
+            counts.divided,
+            counts.unresolved,
+            report.resolution.tolerance,
+            report.resolution.spacing,
+            lines.lines.len(),
+            lines.points.len(),
+        );
+    }
+    if let Some(fineness) = report.fineness {
+        let counts = report.surface_counts;
+        let fineness = match fineness {
+            Fineness::Tolerance(tolerance) => format!("tolerance {tolerance:e}"),
+            Fineness::PointsPerSide(points) => format!("{points} points a side"),
+        };
+        text += &format!(
+            "\n{} tetrahedra; {} active, {} subdivided, {} unresolved\n\
+             {fineness}: {} triangles, {} points",
+            report.tetrahedra,
+            counts.active,
+            counts.divided,
+            counts.unresolved,
+            surface.triangles.len(),
+            surface.points.len(),
+        );
+    }
+    text
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use vtu2contour::filter::{Contoured, picture};
 use vtu2contour::vtk::{
     AtomicFile, ClosedFile, Declaration, OutputFolder, PolyData, PvdEntry, VtkError, WriteOptions,
@@ -90,7 +90,7 @@ impl Output {
     /// Writes the contours of the part `index` of the input.
     pub fn add(&mut self, index: usize, from: &PvdEntry, contoured: Contoured) -> Result<()> {
         let data = match self.format {
-            Format::Svg => return Ok(picture(&contoured, self.mesh).write(&mut self.main)?),
+            Format::Svg => return self.draw(&contoured),
             _ => contoured.poly_data,
         };
         match self.format {
@@ -98,6 +98,15 @@ impl Output {
             Format::Vtp => Ok(write_vtp_to(&mut self.main, &data, self.options)?),
             _ => Ok(self.add_listed(index, from, &data)?),
         }
+    }
+
+    /// Writes the lines as a picture.
+    fn draw(&mut self, contoured: &Contoured) -> Result<()> {
+        let picture = picture(contoured, self.mesh).context(
+            "a picture shows contour lines, and the grid has solids only: write surfaces, with \
+             -o NAME.vtp",
+        )?;
+        Ok(picture.write(&mut self.main)?)
     }
 
     fn add_listed(

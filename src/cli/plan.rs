@@ -34,16 +34,11 @@ impl Plan {
 
     fn add(&mut self, name: Option<&str>, found: Preview) {
         let counts = [
-            (found.unusable, "triangles with values not finite"),
-            (found.ghosts, "triangles of ghost cells"),
+            (found.unusable, "triangles and tetrahedra with values not finite"),
+            (found.ghosts, "triangles and tetrahedra of ghost cells"),
         ];
         if found.left_out.total() > 0 {
             self.left_out.add(name, &found.left_out.to_string());
-        }
-        if found.solids.total() > 0 {
-            let solids = &found.solids;
-            let text = format!("{solids} (only two-dimensional cells are contoured)");
-            self.left_out.add(name, &text);
         }
         for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
             self.left_out.add(name, &format!("{count} {what}"));
@@ -74,12 +69,18 @@ impl Plan {
         gradients.sort();
         gradients.dedup();
         let triangles: usize = self.parts.iter().map(|part| part.triangles).sum();
+        let tetrahedra: usize = self.parts.iter().map(|part| part.tetrahedra).sum();
+        let cells = match (triangles, tetrahedra) {
+            (_, 0) => format!("{triangles} triangles"),
+            (0, _) => format!("{tetrahedra} tetrahedra"),
+            _ => format!("{triangles} triangles, {tetrahedra} tetrahedra"),
+        };
         let low = self.parts.iter().map(|part| part.range[0]).fold(f64::INFINITY, f64::min);
         let high = self.parts.iter().map(|part| part.range[1]).fold(f64::NEG_INFINITY, f64::max);
         let mut lines = vec![
             format!("array     {}", first.label),
             format!("gradient  {}", gradients.join(" or ")),
-            format!("cells     {triangles} triangles"),
+            format!("cells     {cells}"),
             format!("range     {low:?} to {high:?}"),
         ];
         let levels = options.levels.resolve([low, high]).unwrap_or_default();

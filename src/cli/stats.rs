@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use serde::Serialize;
+use vtu2contour::contour::surface::Fineness;
 use vtu2contour::filter::{Contoured, GradientOrigin, Stage, level_warning};
 use vtu2contour::vtk::{AtomicFile, ClosedFile, PvdEntry};
 
@@ -15,7 +16,7 @@ use vtu2contour::vtk::{AtomicFile, ClosedFile, PvdEntry};
 pub struct Stats {
     array: String,
     levels: Vec<f64>,
-    /// Places of the levels that have lines.
+    /// Places of the levels that have lines or surfaces.
     #[serde(skip)]
     drawn: BTreeSet<usize>,
     #[serde(flatten)]
@@ -47,6 +48,10 @@ struct Counts {
     tolerance: Option<f64>,
     /// The greatest of all parts; null without a limit.
     spacing: Option<f64>,
+    /// The tolerance of surfaces, the greatest of all parts; null without surfaces or limit.
+    surface_tolerance: Option<f64>,
+    /// Points on each side of a surface's patch, the most of all parts; null by tolerance.
+    points_per_side: Option<u32>,
     cells: Cells,
     output: Output,
 }
@@ -55,18 +60,19 @@ struct Counts {
 #[derive(Clone, Debug, Default, Serialize)]
 struct Cells {
     triangles: usize,
-    /// Triangles that hold a level, summed over the levels.
+    tetrahedra: usize,
+    /// Triangles and tetrahedra that hold a level, summed over the levels.
     active: usize,
     subdivided: usize,
     /// Pieces whose contour could not be settled.
     unresolved: usize,
     /// Triangles in which a level is touched, not crossed.
     touching: usize,
-    /// Arcs not as fine as asked.
+    /// Arcs and triangles of surfaces not as fine as asked.
     coarse: usize,
     /// Cells that are not contoured.
     skipped: usize,
-    /// Triangles with values that are not finite.
+    /// Triangles and tetrahedra with values that are not finite.
     not_finite: usize,
     ghosts: usize,
     singular_pde: usize,
@@ -77,6 +83,8 @@ struct Output {
     points: usize,
     lines: usize,
     closed: usize,
+    /// Of surfaces.
+    triangles: usize,
 }
 
 /// Wall-clock seconds of each stage.
@@ -147,12 +155,14 @@ impl Stats {
         let counts = Counts::new(contoured);
         if self.parts.is_empty() {
             self.array.clone_from(&contoured.report.label);
-            self.levels.clone_from(&contoured.lines.levels);
+            self.levels.clone_from(&contoured.report.levels);
             self.all = counts.clone();
         } else {
             self.all += &counts;
         }
         self.drawn.extend(contoured.lines.lines.iter().map(|line| line.level));
+        let surfaces = contoured.surface.level_triangles.iter().enumerate();
+        self.drawn.extend(surfaces.filter(|(_, range)| !range.is_empty()).map(|(level, _)| level));
         self.parts.push(PartStats {
             file: part.file.display().to_string(),
             time: part.time,
@@ -197,21 +207,30 @@ impl Counts {
             GradientOrigin::Unused => (None, "unused"),
         };
         let limit = |value: f64| value.is_finite().then_some(value);
+        let (surface_tolerance, points_per_side) = match report.fineness {
+            None => (None, None),
+            Some(Fineness::Tolerance(tolerance)) => (Some(tolerance), None),
+            Some(Fineness::PointsPerSide(points)) => (None, Some(points)),
+        };
+        let (lines_counts, surface) = (report.counts, report.surface_counts);
         Self {
             gradient,
             gradient_origin,
             range: report.range,
             tolerance: limit(report.resolution.tolerance),
             spacing: limit(report.resolution.spacing),
+            surface_tolerance,
+            points_per_side,
             cells: Cells {
                 triangles: report.triangles,
-                active: report.counts.active,
-                subdivided: report.counts.divided,
-                unresolved: report.counts.unresolved,
-                touching: report.counts.touching,
-                coarse: report.counts.coarse,
-                skipped: report.left_out.total() + report.solids.total(),
-                not_finite: report.counts.unusable,
+                tetrahedra: report.tetrahedra,
+                active: lines_counts.active + surface.active,
+                subdivided: lines_counts.divided + surface.divided,
+                unresolved: lines_counts.unresolved + surface.unresolved,
+                touching: lines_counts.touching,
+                coarse: lines_counts.coarse + surface.coarse,
+                skipped: report.left_out.total(),
+                not_finite: lines_counts.unusable + surface.unusable,
                 ghosts: report.ghosts,
                 singular_pde: report.singular,
             },
@@ -219,6 +238,7 @@ impl Counts {
                 points: poly_data.points.tuples(),
                 lines: poly_data.lines.len(),
                 closed: lines.lines.iter().filter(|line| line.closed).count(),
+                triangles: poly_data.polys.len(),
             },
         }
     }
@@ -234,8 +254,11 @@ impl AddAssign<&Counts> for Counts {
         self.range[1] = self.range[1].max(part.range[1]);
         self.tolerance = greatest(self.tolerance, part.tolerance);
         self.spacing = greatest(self.spacing, part.spacing);
+        self.surface_tolerance = greatest(self.surface_tolerance, part.surface_tolerance);
+        self.points_per_side = self.points_per_side.max(part.points_per_side);
         let (cells, more) = (&mut self.cells, &part.cells);
         cells.triangles += more.triangles;
+        cells.tetrahedra += more.tetrahedra;
         cells.active += more.active;
         cells.subdivided += more.subdivided;
         cells.unresolved += more.unresolved;
@@ -248,5 +271,6 @@ impl AddAssign<&Counts> for Counts {
         self.output.points += part.output.points;
         self.output.lines += part.output.lines;
         self.output.closed += part.output.closed;
+        self.output.triangles += part.output.triangles;
     }
 }

@@ -1,17 +1,21 @@
-//! The contour filter: a grid with data in, contour lines with data out.
+//! The contour filter: a grid with data in, contours with data out.
 
 use super::cells::Triangles;
 use super::error::FilterError;
 use super::gradients::GradientOrigin;
+use super::interpolated::{InTetrahedra, InTriangles};
 use super::line_output::LineOutput;
 use super::merge_points::{coincidence_warning, merge_points};
 use super::options::ContourOptions;
-use super::pde_warning::pde_warning;
-use super::solution::{Interpolated, Solution};
-use crate::contour::CellRanges;
+use super::output::Output;
+use super::report::Report;
+use super::solution::{Domain, Solution};
+use super::surface_output::SurfaceOutput;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
-use crate::interpolant::PdeFit;
-use crate::simplices::{CellCounts, LeftOut, lagrange_grid};
+use crate::contour::surface::{
+    ContourSurface, SurfaceCounts, contour_surface, points_per_side_within,
+};
+use crate::simplices::lagrange_grid;
 use crate::vtk::{PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
@@ -27,49 +31,22 @@ pub enum Stage {
     Data,
 }
 
-/// What was done, and what people should know about it.
-#[derive(Clone, Debug)]
-pub struct Report {
-    /// What was contoured, such as `u` or `|velocity|`.
-    pub label: String,
-    /// Where the gradient came from.
-    pub gradient: GradientOrigin,
-    /// How many triangles there were.
-    pub triangles: usize,
-    /// Cells of two or three dimensions that could not be split into simplices.
-    pub left_out: LeftOut,
-    /// Solids, which are not contoured yet.
-    pub solids: CellCounts,
-    /// Cells of another process, which are not contoured.
-    pub ghosts: usize,
-    /// Triangles in which the PDE could not be used.
-    pub singular: usize,
-    /// How well the PDE fits the values and gradients; nothing without a PDE.
-    pub pde_fit: Option<PdeFit>,
-    /// The least and the greatest value of the interpolant.
-    pub range: [f64; 2],
-    /// What the contouring counted.
-    pub counts: Counts,
-    /// How fine the lines are.
-    pub resolution: Resolution,
-    /// One line each. What can be said only of all grids that share their levels is told by
-    /// [`level_warning`](super::level_warning()).
-    pub warnings: Vec<String>,
-}
-
-/// Contour lines with everything that can be made of them.
+/// Contours with everything that can be made of them.
 pub struct Contoured {
-    /// The lines as VTK's polygonal data.
+    /// Lines and surfaces as VTK's polygonal data.
     pub poly_data: PolyData,
-    /// The lines.
+    /// The lines, in the two-dimensional cells.
     pub lines: ContourLines,
-    /// The triangles.
-    pub triangles: Triangles,
+    /// The surfaces, in the solids.
+    pub surface: ContourSurface,
+    /// The two-dimensional cells, if there are any.
+    pub triangles: Option<Triangles>,
     /// What was done.
     pub report: Report,
 }
 
-/// Contours a grid. `progress` is told each stage as it begins.
+/// Contours a grid: lines in its two-dimensional cells, surfaces in its solids. `progress`
+/// is told each stage as it begins.
 ///
 /// # Errors
 /// See [`FilterError`]: an array that is not there or does not fit, a PDE that
@@ -82,91 +59,101 @@ pub fn contour(
     progress(Stage::Field);
     let grid = lagrange_grid(grid);
     let grid = merge_points(&grid, options.merge_points)?;
-    let grid = grid.as_ref();
-    let solution = Solution::new(grid, options)?;
-    let resolution = options.resolution(solution.triangles.mesh.diagonal())?;
+    let solution = Solution::new(grid.as_ref(), options)?;
+    let resolution = options.resolution(solution.diagonal())?;
     progress(Stage::Interpolant);
-    let Interpolated { cubics, singular, pde_fit } = solution.interpolant(options.predictor);
-    let mut ranges = CellRanges::new(cubics.as_ref());
-    let ghosts = ranges.exclude(|triangle| solution.is_ghost(triangle));
-    let range = solution.range(&ranges, cubics.as_ref())?;
+    let in_triangles = solution.in_triangles(options);
+    let in_tetrahedra = solution.in_tetrahedra(options);
+    let range = solution.range(in_triangles.as_ref(), in_tetrahedra.as_ref())?;
     let levels = options.levels.resolve(range)?;
     progress(Stage::Contour);
-    let lines =
-        contour_lines_with_walls(cubics.as_ref(), &ranges, &levels, options.method, resolution);
-    progress(Stage::Data);
-    let poly_data = LineOutput {
-        grid,
-        parents: &solution.triangles.parents,
-        chosen: &solution.chosen,
-        interpolant: cubics.as_ref(),
-        lines: &lines,
-        options: options.output(grid),
-    }
-    .poly_data();
-    drop(cubics);
-    let solids = solution.solids();
-    let mut warnings = solution.pde_warnings().to_vec();
-    warnings.extend(coincidence_warning(&solution.triangles.mesh));
-    warnings.extend(solution.gradients.warning);
-    let report = Report {
-        label: solution.chosen.label(),
-        gradient: solution.gradients.origin,
-        triangles: solution.triangles.mesh.triangles().len(),
-        left_out: solution.left_out,
-        solids,
-        ghosts,
-        singular,
-        pde_fit,
-        range,
-        counts: lines.counts,
-        resolution,
-        warnings,
+    let lines = in_triangles.as_ref().map(|interpolated| {
+        let (cubics, ranges) = (interpolated.cubics.as_ref(), &interpolated.ranges);
+        contour_lines_with_walls(cubics, ranges, &levels, options.method, resolution)
+    });
+    let mut fineness = None;
+    let surface = match &in_tetrahedra {
+        None => None,
+        Some(interpolated) => {
+            let (cubics, ranges) = (interpolated.cubics.as_ref(), &interpolated.ranges);
+            let within = |limit| points_per_side_within(cubics, ranges, &levels, limit);
+            let chosen = options.fineness(solution.diagonal(), within)?;
+            fineness = Some(chosen);
+            Some(contour_surface(cubics, ranges, &levels, chosen))
+        }
     };
-    let report = report.with_warnings();
-    Ok(Contoured { poly_data, lines, triangles: solution.triangles, report })
+    progress(Stage::Data);
+    let mut output = Output::new(solution.grid, &solution.chosen, options.output(solution.grid));
+    if let (Some(domain), Some(interpolated), Some(lines)) =
+        (&solution.triangles, &in_triangles, &lines)
+    {
+        let (parents, interpolant) = (&domain.parents, interpolated.cubics.as_ref());
+        LineOutput { parents, interpolant, lines }.add_to(&mut output);
+    }
+    if let (Some(domain), Some(interpolated), Some(surface)) =
+        (&solution.tetrahedra, &in_tetrahedra, &surface)
+    {
+        let (parents, interpolant) = (&domain.parents, interpolated.cubics.as_ref());
+        SurfaceOutput { parents, interpolant, surface }.add_to(&mut output);
+    }
+    let poly_data = output.poly_data();
+    let (lines, surface) = (lines.unwrap_or_default(), surface.unwrap_or_default());
+    let report = report(&solution, in_triangles.as_ref(), in_tetrahedra.as_ref());
+    let report = Report {
+        range,
+        levels,
+        counts: lines.counts,
+        surface_counts: surface.counts,
+        resolution,
+        fineness,
+        ..report
+    };
+    drop((in_triangles, in_tetrahedra));
+    let triangles =
+        solution.triangles.map(|Domain { mesh, parents, .. }| Triangles { mesh, parents });
+    Ok(Contoured { poly_data, lines, surface, triangles, report: report.with_warnings() })
 }
 
-impl Report {
-    /// Adds what people should know, a line each.
-    fn with_warnings(mut self) -> Self {
-        let mut warn = |condition: bool, text: String| {
-            if condition {
-                self.warnings.push(text);
-            }
-        };
-        let Counts { unusable, unresolved, .. } = self.counts;
-        warn(self.left_out.total() > 0, format!("left out: {}", self.left_out));
-        warn(
-            self.solids.total() > 0,
-            format!("left out: {} (only two-dimensional cells are contoured)", self.solids),
-        );
-        warn(
-            unusable > 0,
-            format!("left out: {unusable} triangles with values that are not finite numbers"),
-        );
-        warn(
-            unresolved > 0,
-            format!("{unresolved} tiny pieces could not be settled; straight lines join them"),
-        );
-        let touching = self.counts.touching;
-        warn(
-            touching > 0,
-            format!(
-                "in {touching} triangles a level is touched, not crossed: no line is drawn there"
-            ),
-        );
-        let coarse = self.counts.coarse;
-        warn(
-            coarse > 0,
-            format!("{coarse} arcs are not as fine as asked: they have too many points"),
-        );
-        let (singular, triangles) = (self.singular, self.triangles);
-        warn(
-            singular > 0,
-            format!("the PDE does not determine the cubic in {singular} of {triangles} triangles"),
-        );
-        self.warnings.extend(pde_warning(&self.label, self.pde_fit));
-        self
+/// What is known before contouring.
+fn report(
+    solution: &Solution,
+    in_triangles: Option<&InTriangles>,
+    in_tetrahedra: Option<&InTetrahedra>,
+) -> Report {
+    let mut warnings = solution.pde_warnings().to_vec();
+    let (mut gradient, mut triangles, mut tetrahedra) = (GradientOrigin::Unused, 0, 0);
+    if let Some(domain) = &solution.triangles {
+        warnings.extend(coincidence_warning(&domain.mesh));
+        warnings.extend(domain.gradients.warning.clone());
+        gradient = domain.gradients.origin.clone();
+        triangles = domain.mesh.triangles().len();
+    }
+    if let Some(domain) = &solution.tetrahedra {
+        warnings.extend(coincidence_warning(&domain.mesh));
+        warnings.extend(domain.gradients.warning.clone());
+        gradient = domain.gradients.origin.clone();
+        tetrahedra = domain.mesh.tetrahedra().len();
+    }
+    warnings.dedup();
+    let in_both = |of_triangles: fn(&InTriangles) -> usize,
+                   of_solids: fn(&InTetrahedra) -> usize| {
+        in_triangles.map_or(0, of_triangles) + in_tetrahedra.map_or(0, of_solids)
+    };
+    Report {
+        label: solution.chosen.label(),
+        gradient,
+        triangles,
+        tetrahedra,
+        left_out: solution.left_out.clone(),
+        ghosts: in_both(|i| i.ghosts, |i| i.ghosts),
+        singular: in_both(|i| i.singular, |i| i.singular),
+        pde_fit: in_triangles.and_then(|interpolated| interpolated.pde_fit),
+        range: [0.0; 2],
+        levels: Vec::new(),
+        counts: Counts::default(),
+        surface_counts: SurfaceCounts::default(),
+        resolution: Resolution { spacing: f64::INFINITY, tolerance: f64::INFINITY },
+        fineness: None,
+        warnings,
     }
 }

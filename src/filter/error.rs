@@ -53,14 +53,14 @@ pub enum FilterError {
     )]
     GradientParts { name: String },
 
-    #[error("no triangle holds a finite value of '{name}': there is nothing to contour")]
+    #[error("no cell holds a finite value of '{name}': there is nothing to contour")]
     NoValues { name: String },
 
     #[error(
-        "nothing to contour: the grid has {cells}, and only two-dimensional cells are contoured{}",
+        "nothing to contour: the grid has {cells}, and only two- and three-dimensional cells are contoured{}",
         if left_out.total() == 0 { String::new() } else { format!("; left out: {left_out}") }
     )]
-    NoTriangles { cells: CellCounts, left_out: LeftOut },
+    NoCells { cells: CellCounts, left_out: LeftOut },
 
     #[error(transparent)]
     Split(#[from] SplitError),
@@ -80,6 +80,12 @@ pub enum FilterError {
     #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
 
+    #[error("--nside must be 2 or more, not {points}")]
+    PointsPerSide { points: u32 },
+
+    #[error("give one of --tolerance, --nside and --triangles, not several")]
+    TwoFinenesses,
+
     #[error("--merge-points {value:?} must be a length: zero, or above it")]
     MergeTolerance { value: f64 },
 
@@ -97,6 +103,6 @@ impl FilterError {
     /// Whether the grid has nothing that could hold a contour. One of several grids may be
     /// so; for a single one it is an error.
     pub fn is_nothing_to_contour(&self) -> bool {
-        matches!(self, Self::NoTriangles { .. } | Self::NoValues { .. })
+        matches!(self, Self::NoCells { .. } | Self::NoValues { .. })
     }
 }

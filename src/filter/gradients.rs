@@ -6,7 +6,7 @@ use super::chosen_array::{ChosenArray, Component, named};
 use super::error::FilterError;
 use super::gradient_arrays::GradientArrays;
 use crate::field::{RecoveryDegree, recover_gradients};
-use crate::mesh::{TriangleMesh, Vector};
+use crate::mesh::{SimplexMesh, Vector};
 use crate::simplices::nodal_gradients;
 use crate::vtk::UnstructuredGrid;
 
@@ -69,9 +69,9 @@ impl Gradients {
     ///
     /// # Errors
     /// If the array named is not there or has the wrong shape.
-    pub fn new(
+    pub fn new<const CORNERS: usize>(
         grid: &UnstructuredGrid,
-        mesh: &TriangleMesh,
+        mesh: &SimplexMesh<CORNERS>,
         chosen: &ChosenArray,
         values: &[f64],
         source: &GradientSource,
@@ -98,19 +98,23 @@ impl Gradients {
         }
     }
 
-    fn recovered(mesh: &TriangleMesh, values: &[f64]) -> Self {
+    fn recovered<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>, values: &[f64]) -> Self {
         let vectors = recover_gradients(mesh, values, RecoveryDegree::default());
         Self { vectors, origin: GradientOrigin::Recovered, warning: None }
     }
 
     /// By the shape functions of quadratic cells, at their points; recovered at
     /// points that have none. Nothing if no point has any.
-    fn of_cells(grid: &UnstructuredGrid, mesh: &TriangleMesh, values: &[f64]) -> Option<Self> {
-        let known = nodal_gradients(grid, mesh.points(), values, 2)?;
+    fn of_cells<const CORNERS: usize>(
+        grid: &UnstructuredGrid,
+        mesh: &SimplexMesh<CORNERS>,
+        values: &[f64],
+    ) -> Option<Self> {
+        let known = nodal_gradients(grid, mesh.points(), values, CORNERS as u8 - 1)?;
         if known.iter().all(Option::is_none) {
             return None;
         }
-        let mut corners = mesh.triangles().iter().flatten();
+        let mut corners = mesh.simplices().iter().flatten();
         let vectors = if corners.all(|&point| known[point as usize].is_some()) {
             known.into_iter().map(Option::unwrap_or_default).collect()
         } else {
@@ -123,9 +127,9 @@ impl Gradients {
 
     /// An array with a conventional name that fits the values, else by quadratic
     /// cells, else recovered.
-    fn automatic(
+    fn automatic<const CORNERS: usize>(
         grid: &UnstructuredGrid,
-        mesh: &TriangleMesh,
+        mesh: &SimplexMesh<CORNERS>,
         chosen: &ChosenArray,
         values: &[f64],
     ) -> Self {
@@ -164,10 +168,14 @@ const ROUNDING: f64 = 1e-7;
 
 /// How much the values' differences along edges differ from the mean of the
 /// gradients at the ends, relative to the differences.
-fn misfit(mesh: &TriangleMesh, values: &[f64], gradients: &[Vector]) -> f64 {
+fn misfit<const CORNERS: usize>(
+    mesh: &SimplexMesh<CORNERS>,
+    values: &[f64],
+    gradients: &[Vector],
+) -> f64 {
     let (mut wrong, mut all, mut rounding) = (0.0, 0.0, 0.0);
-    for &[a, b, c] in mesh.triangles() {
-        for (from, to) in [(a, b), (b, c), (c, a)].map(|(p, q)| (p as usize, q as usize)) {
+    for corners in mesh.simplices() {
+        for [from, to] in pairs(corners) {
             let difference = values[to] - values[from];
             let edge = mesh.points()[to] - mesh.points()[from];
             let expected = (gradients[from] + gradients[to]).dot(&edge) / 2.0;
@@ -181,6 +189,12 @@ fn misfit(mesh: &TriangleMesh, values: &[f64], gradients: &[Vector]) -> f64 {
     }
     // the gradient of a constant is zero, or rounding
     if wrong <= rounding { 0.0 } else { wrong / all }
+}
+
+/// The edges of a simplex, by their points.
+fn pairs<const CORNERS: usize>(corners: &[u32; CORNERS]) -> impl Iterator<Item = [usize; 2]> {
+    (0..CORNERS)
+        .flat_map(move |to| (0..to).map(move |from| [from, to].map(|n| corners[n] as usize)))
 }
 
 /// How far values differ from a gradient, in words.

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::error::FilterError;
-use crate::mesh::TriangleMesh;
+use crate::mesh::SimplexMesh;
 use crate::vtk::{CellArray, DataArray, UnstructuredGrid, Values};
 
 /// The grid with points no further apart than `tolerance` (a length; 0 for points at
@@ -118,13 +118,13 @@ fn averaged(array: &DataArray, leaders: &[u32]) -> Option<Values> {
 ///
 /// A mesh whose cells share points has about half as many as triangles: only one with at
 /// least as many is looked at.
-pub fn coincidence_warning(mesh: &TriangleMesh) -> Option<String> {
+pub fn coincidence_warning<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>) -> Option<String> {
     let mut used = vec![false; mesh.points().len()];
-    mesh.triangles().iter().flatten().for_each(|&point| used[point as usize] = true);
+    mesh.simplices().iter().flatten().for_each(|&point| used[point as usize] = true);
     let points = mesh.points().iter().zip(&used).filter(|(_, used)| **used);
     let mut places: Vec<[f64; 3]> = points.map(|(point, _)| [point.x, point.y, point.z]).collect();
     let total = places.len();
-    if total < mesh.triangles().len() {
+    if total < mesh.simplices().len() {
         return None;
     }
     places.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));

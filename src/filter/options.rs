@@ -3,9 +3,10 @@
 use super::chosen_array::Component;
 use super::error::FilterError;
 use super::gradients::GradientSource;
-use super::line_output::OutputOptions;
+use super::output::OutputOptions;
 use crate::contour::Levels;
 use crate::contour::lines::{Method, Resolution};
+use crate::contour::surface::Fineness;
 use crate::interpolant::Predictor;
 use crate::vtk::{ArrayType, UnstructuredGrid};
 
@@ -37,9 +38,15 @@ pub struct ContourOptions {
     pub method: Method,
     /// The greatest distance between neighbouring points, in units of length.
     pub spacing: Option<f64>,
-    /// The greatest distance of a segment from the contour, in units of length.
-    /// Without this and `spacing`: [`DEFAULT_TOLERANCE`] times the diagonal.
+    /// The greatest distance of a segment or a triangle from the contour, in units of
+    /// length. Without this and `spacing`: [`DEFAULT_TOLERANCE`] times the diagonal for
+    /// lines; without this, `points_per_side` and `triangles`:
+    /// [`DEFAULT_SURFACE_TOLERANCE`] times the diagonal for surfaces.
     pub tolerance: Option<f64>,
+    /// Points on each side of a patch of a surface: the thesis' *nSide*, two at least.
+    pub points_per_side: Option<u32>,
+    /// The greatest number of triangles: as many points on each side as that allows.
+    pub triangles: Option<usize>,
     /// The interpolant.
     pub interpolant: InterpolantKind,
     /// The PDE as text, see [`crate::pde`].
@@ -62,6 +69,14 @@ pub struct ContourOptions {
 /// pixel where a picture of the mesh is ten thousand pixels wide.
 pub const DEFAULT_TOLERANCE: f64 = 1e-5;
 
+/// The default tolerance of surfaces, as a part of the diagonal: a pixel where a picture of
+/// the mesh is a thousand pixels wide.
+pub const DEFAULT_SURFACE_TOLERANCE: f64 = 1e-3;
+
+/// The least tolerance of surfaces, as a part of the diagonal: finer ones have more
+/// triangles than memory holds.
+const LEAST_OF_SURFACES: f64 = 1e-6;
+
 /// The least spacing or tolerance, as a part of the diagonal.
 const LEAST: f64 = 1e-6;
 
@@ -76,6 +91,8 @@ impl Default for ContourOptions {
             method: Method::default(),
             spacing: None,
             tolerance: None,
+            points_per_side: None,
+            triangles: None,
             interpolant: InterpolantKind::default(),
             pde: None,
             parameters: Vec::new(),
@@ -110,6 +127,36 @@ impl ContourOptions {
             spacing: self.spacing.unwrap_or(f64::INFINITY),
             tolerance: self.tolerance.unwrap_or(default),
         })
+    }
+
+    /// How fine surfaces are, on a mesh of the given diagonal; by the number of triangles,
+    /// if that is given, `within` tells how many points a side keep it.
+    ///
+    /// # Errors
+    /// If more than one limit is given, or one is not positive.
+    pub fn fineness(
+        &self,
+        diagonal: f64,
+        within: impl FnOnce(usize) -> u32,
+    ) -> Result<Fineness, FilterError> {
+        match (self.tolerance, self.points_per_side, self.triangles) {
+            (Some(value), None, None) => {
+                let option = "--tolerance";
+                if value.is_nan() || value <= 0.0 {
+                    return Err(FilterError::NotPositive { option, value });
+                }
+                let least = LEAST_OF_SURFACES * diagonal;
+                if value < least {
+                    return Err(FilterError::TooSmall { option, value, least });
+                }
+                Ok(Fineness::Tolerance(value))
+            }
+            (None, Some(points), None) if points >= 2 => Ok(Fineness::PointsPerSide(points)),
+            (None, Some(points), None) => Err(FilterError::PointsPerSide { points }),
+            (None, None, Some(triangles)) => Ok(Fineness::PointsPerSide(within(triangles))),
+            (None, None, None) => Ok(Fineness::Tolerance(DEFAULT_SURFACE_TOLERANCE * diagonal)),
+            _ => Err(FilterError::TwoFinenesses),
+        }
     }
 
     /// What the output holds, for a grid.

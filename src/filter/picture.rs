@@ -4,13 +4,14 @@ use super::contour_filter::Contoured;
 use crate::mesh::{TriangleMesh, Vector, boundary_edges, plane_axes};
 use crate::svg::{Coloured, Picture, Point};
 
-/// The picture of contour lines: the mesh's boundary (and its edges, if wanted)
+/// The picture of contour lines; nothing without two-dimensional cells: the mesh's boundary (and its edges, if wanted)
 /// behind the lines, coloured by level. Curves stay Bézier curves.
 ///
 /// A mesh in a plane z = const is seen from above, one in another plane at right
 /// angles, and a curved surface along its mean normal; what lies behind is drawn too.
-pub fn picture(contoured: &Contoured, with_mesh: bool) -> Picture {
-    let Contoured { lines, triangles, report, .. } = contoured;
+pub fn picture(contoured: &Contoured, with_mesh: bool) -> Option<Picture> {
+    let Contoured { lines, report, .. } = contoured;
+    let triangles = contoured.triangles.as_ref()?;
     let mesh = &triangles.mesh;
     let view = view_axes(mesh);
     let flat = |point: &Vector| view.map(|axis| axis.dot(point));
@@ -26,13 +27,13 @@ pub fn picture(contoured: &Contoured, with_mesh: bool) -> Picture {
             .collect(),
         closed: line.closed,
     };
-    Picture {
+    Some(Picture {
         title: report.label.clone(),
         values: lines.levels.clone(),
         mesh: edges,
         outline,
         lines: lines.lines.iter().map(coloured).collect(),
-    }
+    })
 }
 
 /// The directions to the right and up, in the plane at right angles to the mesh's

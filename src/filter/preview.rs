@@ -1,12 +1,11 @@
 //! What contouring a grid would do, without doing it.
 
 use super::error::FilterError;
-use super::gradients::GradientOrigin;
+use super::gradients::{GradientOrigin, Gradients};
 use super::merge_points::merge_points;
 use super::options::ContourOptions;
-use super::solution::{Interpolated, Solution};
-use crate::contour::CellRanges;
-use crate::simplices::{CellCounts, LeftOut, lagrange_grid};
+use super::solution::Solution;
+use crate::simplices::{LeftOut, lagrange_grid};
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid would be contoured, and between which values.
@@ -20,11 +19,11 @@ pub struct Preview {
     pub warning: Option<String>,
     /// How many triangles there are.
     pub triangles: usize,
+    /// How many tetrahedra there are.
+    pub tetrahedra: usize,
     /// Cells of two or three dimensions that could not be split into simplices.
     pub left_out: LeftOut,
-    /// Solids, which are not contoured yet.
-    pub solids: CellCounts,
-    /// Triangles with values that are not finite.
+    /// Triangles and tetrahedra with values that are not finite.
     pub unusable: usize,
     /// Cells of another process, which are not contoured.
     pub ghosts: usize,
@@ -41,23 +40,29 @@ pub struct Preview {
 pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Preview, FilterError> {
     let grid = lagrange_grid(grid);
     let grid = merge_points(&grid, options.merge_points)?;
-    let grid = grid.as_ref();
-    let solution = Solution::new(grid, options)?;
-    let Interpolated { cubics, .. } = solution.interpolant(options.predictor);
-    let mut ranges = CellRanges::new(cubics.as_ref());
-    let ghosts = ranges.exclude(|triangle| solution.is_ghost(triangle));
-    let range = solution.range(&ranges, cubics.as_ref())?;
-    drop(cubics);
-    let solids = solution.solids();
+    let solution = Solution::new(grid.as_ref(), options)?;
+    let in_triangles = solution.in_triangles(options);
+    let in_tetrahedra = solution.in_tetrahedra(options);
+    let range = solution.range(in_triangles.as_ref(), in_tetrahedra.as_ref())?;
+    let of_triangles = in_triangles.map_or((0, 0), |i| (i.ghosts, i.ranges.unusable()));
+    let of_tetrahedra = in_tetrahedra.map_or((0, 0), |i| (i.ghosts, i.ranges.unusable()));
+    let label = solution.chosen.label();
+    let Solution { triangles, tetrahedra, left_out, .. } = solution;
+    let count = |mesh: Option<usize>| mesh.unwrap_or(0);
+    let triangle_count = count(triangles.as_ref().map(|domain| domain.mesh.triangles().len()));
+    let tetrahedron_count = count(tetrahedra.as_ref().map(|domain| domain.mesh.tetrahedra().len()));
+    let of_solids = tetrahedra.map(|domain| domain.gradients);
+    let gradients = of_solids.or(triangles.map(|domain| domain.gradients));
+    let Gradients { origin, warning, .. } = gradients.unwrap_or(Gradients::none());
     Ok(Preview {
-        label: solution.chosen.label(),
-        gradient: solution.gradients.origin,
-        warning: solution.gradients.warning,
-        triangles: solution.triangles.mesh.triangles().len(),
-        left_out: solution.left_out,
-        solids,
-        unusable: ranges.unusable(),
-        ghosts,
+        label,
+        gradient: origin,
+        warning,
+        triangles: triangle_count,
+        tetrahedra: tetrahedron_count,
+        left_out,
+        unusable: of_triangles.1 + of_tetrahedra.1,
+        ghosts: of_triangles.0 + of_tetrahedra.0,
         range,
     })
 }

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use crate::vtk::{AttributeKind, Attributes, DataArray, Values};
 
-/// A point of the output as a weighted mean of three points of the grid.
+/// A point of the output as a weighted mean of points of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stencil {
     /// The points.
-    pub points: [u32; 3],
+    pub points: [u32; 4],
     /// Their weights, which sum to one.
-    pub weights: [f64; 3],
+    pub weights: [f64; 4],
 }
 
 /// Every array of `data` interpolated linearly at the stencils, each of its own
@@ -172,8 +172,8 @@ mod tests {
     #[test]
     fn means_keep_their_type() {
         let stencils = [
-            Stencil { points: [0, 1, 2], weights: [0.5, 0.5, 0.0] },
-            Stencil { points: [0, 1, 2], weights: [0.0, 0.5, 0.5] },
+            Stencil { points: [0, 1, 2, 2], weights: [0.5, 0.5, 0.0, 0.0] },
+            Stencil { points: [0, 1, 2, 2], weights: [0.0, 0.5, 0.25, 0.25] },
         ];
         let output = interpolate(&data(), &stencils);
         assert_eq!(output.get("float").unwrap().values, Values::F32(vec![0.5, 1.5]));

@@ -1,15 +1,14 @@
-//! A finite-element solution taken from a grid: triangles, values, gradients, PDE.
+//! A finite-element solution taken from a grid: cells, values, gradients, PDE.
 
-use super::cells::{Cells, Tetrahedra, Triangles, is_ghost};
+use super::cells::{Cells, Part};
 use super::chosen_array::ChosenArray;
 use super::error::FilterError;
 use super::gradients::Gradients;
 use super::known_pde::KnownPde;
 use super::options::{ContourOptions, InterpolantKind};
-use crate::contour::CellRanges;
 use crate::field::Field;
-use crate::interpolant::{Equation, Linear, Pci, PdeFit, Predictor, TriangleCubics};
-use crate::simplices::{CellCounts, LeftOut};
+use crate::mesh::SimplexMesh;
+use crate::simplices::LeftOut;
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid is contoured.
@@ -18,28 +17,27 @@ pub struct Solution<'a> {
     pub grid: &'a UnstructuredGrid,
     /// The array.
     pub chosen: ChosenArray<'a>,
-    /// The two-dimensional cells.
-    pub triangles: Triangles,
-    /// The solids, which are not contoured yet.
-    pub tetrahedra: Option<Tetrahedra>,
-    /// Cells that cannot be split into simplices.
-    pub left_out: LeftOut,
     /// One value a point.
     pub values: Vec<f64>,
-    /// One gradient a point; none for the linear interpolant.
-    pub gradients: Gradients,
-    interpolant: InterpolantKind,
-    equation: Option<KnownPde>,
+    /// The two-dimensional cells, which have contour lines.
+    pub triangles: Option<Domain<3>>,
+    /// The solids, which have iso-surfaces.
+    pub tetrahedra: Option<Domain<4>>,
+    /// Cells that cannot be split into simplices.
+    pub left_out: LeftOut,
+    /// The PDE, if it is known.
+    pub pde: Option<KnownPde>,
 }
 
-/// An interpolant, and what it could not do.
-pub struct Interpolated<'a> {
-    /// The interpolant.
-    pub cubics: Box<dyn TriangleCubics + 'a>,
-    /// Triangles in which the PDE could not be used.
-    pub singular: usize,
-    /// How well the PDE fits the data; nothing without a PDE.
-    pub pde_fit: Option<PdeFit>,
+/// The cells of one dimension, as simplices, and the gradients there.
+#[derive(Clone, Debug)]
+pub struct Domain<const CORNERS: usize> {
+    /// The simplices, with all the grid's points.
+    pub mesh: SimplexMesh<CORNERS>,
+    /// The cell of the grid that each simplex came from.
+    pub parents: Vec<u32>,
+    /// One gradient a point; none for the linear interpolant.
+    pub gradients: Gradients,
 }
 
 impl<'a> Solution<'a> {
@@ -48,79 +46,53 @@ impl<'a> Solution<'a> {
     ///
     /// # Errors
     /// If an array is missing or does not fit, the PDE cannot be read, or the grid
-    /// has no triangles.
+    /// has no cells that can be contoured.
     pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
-        let equation = KnownPde::new(grid, options)?;
+        let pde = KnownPde::new(grid, options)?;
         let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
-        let cells = || grid.types.iter().copied().collect();
-        let Some(triangles) = triangles else {
-            return Err(FilterError::NoTriangles { cells: cells(), left_out });
-        };
-        let values = chosen.values();
-        let gradients = match options.interpolant {
-            InterpolantKind::Linear => Gradients::none(),
-            InterpolantKind::Pci => {
-                Gradients::new(grid, &triangles.mesh, &chosen, &values, &options.gradient)?
-            }
-        };
-        let interpolant = options.interpolant;
-        Ok(Self {
-            grid,
-            chosen,
-            triangles,
-            tetrahedra,
-            left_out,
-            values,
-            gradients,
-            interpolant,
-            equation,
-        })
-    }
-
-    /// The solids by type, which are not contoured yet.
-    pub fn solids(&self) -> CellCounts {
-        self.tetrahedra.as_ref().map(|part| part.cells(self.grid)).unwrap_or_default()
-    }
-
-    /// The interpolant of the solution.
-    pub fn interpolant(&self, predictor: Predictor) -> Interpolated<'_> {
-        let mesh = &self.triangles.mesh;
-        let field = Field { values: &self.values, gradients: &self.gradients.vectors };
-        if self.interpolant == InterpolantKind::Linear {
-            let cubics = Box::new(Linear::new(mesh, &self.values));
-            return Interpolated { cubics, singular: 0, pde_fit: None };
+        if triangles.is_none() && tetrahedra.is_none() {
+            let cells = grid.types.iter().copied().collect();
+            return Err(FilterError::NoCells { cells, left_out });
         }
-        let Some(KnownPde { pde, arrays, .. }) = &self.equation else {
-            let cubics = Box::new(Pci::new(mesh, field));
-            return Interpolated { cubics, singular: 0, pde_fit: None };
-        };
-        let pci = Pci::with_pde(mesh, field, &Equation { pde, arrays, predictor });
-        let singular = pci.singular();
-        let pde_fit = Some(PdeFit::new(&pci, pde));
-        Interpolated { cubics: Box::new(pci), singular, pde_fit }
+        let values = chosen.values();
+        let triangles = Domain::new(grid, triangles, &chosen, &values, options)?;
+        let tetrahedra = Domain::new(grid, tetrahedra, &chosen, &values, options)?;
+        Ok(Self { grid, chosen, values, triangles, tetrahedra, left_out, pde })
     }
 
-    /// The least and the greatest value of the interpolant.
-    ///
-    /// # Errors
-    /// If no triangle has finite values.
-    pub fn range(
-        &self,
-        ranges: &CellRanges,
-        cubics: &dyn TriangleCubics,
-    ) -> Result<[f64; 2], FilterError> {
-        let no_values = || FilterError::NoValues { name: self.chosen.label() };
-        ranges.attained(cubics).ok_or_else(no_values)
+    /// The length of the diagonal of the box around all cells: of the larger one, where
+    /// there are two kinds.
+    pub fn diagonal(&self) -> f64 {
+        let of_triangles = self.triangles.as_ref().map_or(0.0, |domain| domain.mesh.diagonal());
+        let of_tetrahedra = self.tetrahedra.as_ref().map_or(0.0, |domain| domain.mesh.diagonal());
+        of_triangles.max(of_tetrahedra)
+    }
+
+    /// Values and gradients on a domain.
+    pub fn field<'b, const CORNERS: usize>(&'b self, domain: &'b Domain<CORNERS>) -> Field<'b> {
+        Field { values: &self.values, gradients: &domain.gradients.vectors }
     }
 
     /// What people should know about the PDE's parameters, a line each.
     pub fn pde_warnings(&self) -> &[String] {
-        self.equation.as_ref().map_or(&[], |known| &known.warnings)
+        self.pde.as_ref().map_or(&[], |known| &known.warnings)
     }
+}
 
-    /// Whether a triangle belongs to another process.
-    pub fn is_ghost(&self, triangle: usize) -> bool {
-        is_ghost(self.grid, self.triangles.parents[triangle])
+impl<const CORNERS: usize> Domain<CORNERS> {
+    fn new(
+        grid: &UnstructuredGrid,
+        part: Option<Part<CORNERS>>,
+        chosen: &ChosenArray,
+        values: &[f64],
+        options: &ContourOptions,
+    ) -> Result<Option<Self>, FilterError> {
+        let Some(Part { mesh, parents }) = part else { return Ok(None) };
+        let gradients = match options.interpolant {
+            InterpolantKind::Linear => Gradients::none(),
+            InterpolantKind::Pci => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
+        };
+        Ok(Some(Self { mesh, parents, gradients }))
     }
 }

@@ -97,8 +97,8 @@ pub struct LineArguments {
     #[arg(long, value_name = "M", value_enum, default_value_t = MethodName::Aodea)]
     pub method: MethodName,
 
-    /// Greatest distance of a segment from the contour, in the mesh's unit
-    /// [default: 1e-5 of the bounding box's diagonal]
+    /// Greatest distance of a segment or a triangle from the contour, in the mesh's unit
+    /// [default: 1e-5 of the bounding box's diagonal; for surfaces 1e-3]
     ///
     /// Steps of a series and pieces of a .pvtp have each the default of their own box.
     #[arg(long, value_name = "T", value_parser = positive)]
@@ -107,6 +107,23 @@ pub struct LineArguments {
     /// Greatest distance between neighbouring points, in the mesh's unit
     #[arg(long, value_name = "D", value_parser = positive)]
     pub spacing: Option<f64>,
+}
+
+/// How surfaces are drawn.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Surfaces")]
+pub struct SurfaceArguments {
+    /// Points on each side of a patch of the surface, instead of a tolerance: 2 for no more
+    /// points than crossings of edges, 3 for four times as many triangles, and so on
+    #[arg(
+        long, value_name = "N", conflicts_with_all = ["tolerance", "triangles"],
+        value_parser = clap::value_parser!(u32).range(2..=1025)
+    )]
+    pub nside: Option<u32>,
+
+    /// The finest --nside with no more triangles than this, all levels together
+    #[arg(long, value_name = "N", conflicts_with = "tolerance")]
+    pub triangles: Option<usize>,
 }
 
 /// What is written.

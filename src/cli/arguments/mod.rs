@@ -13,7 +13,7 @@ mod values;
 
 pub use groups::{
     InterpolantArguments, LevelArguments, LineArguments, OutputArguments, RunArguments,
-    ScalarArguments,
+    ScalarArguments, SurfaceArguments,
 };
 pub use values::Time;
 
@@ -138,6 +138,9 @@ pub struct ContourArguments {
     pub lines: LineArguments,
 
     #[command(flatten)]
+    pub surfaces: SurfaceArguments,
+
+    #[command(flatten)]
     pub output_options: OutputArguments,
 
     #[command(flatten)]
@@ -157,13 +160,15 @@ impl ContourArguments {
 
     /// What the arguments ask the filter to do.
     pub fn options(&self) -> ContourOptions {
-        let Self { levels, interpolant, lines, output_options, .. } = self;
+        let Self { levels, interpolant, lines, surfaces, output_options, .. } = self;
         ContourOptions {
             merge_points: self.merge_points,
             levels: levels.levels(),
             method: lines.method.into(),
             spacing: lines.spacing,
             tolerance: lines.tolerance,
+            points_per_side: surfaces.nside,
+            triangles: surfaces.triangles,
             interpolant: interpolant.interpolant.into(),
             pde: interpolant.pde.clone(),
             parameters: interpolant.parameters.clone(),

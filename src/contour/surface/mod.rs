@@ -1,6 +1,7 @@
 //! Iso-surfaces in tetrahedra.
 
 mod adaptive;
+mod budget;
 mod cell;
 mod contour_surface;
 mod division;
@@ -13,6 +14,7 @@ mod surface_builder;
 mod tessellation;
 mod uniform;
 
+pub use budget::points_per_side_within;
 pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
 
 use rayon::prelude::*;
@@ -60,7 +62,7 @@ pub fn contour_surface(
     for &level in levels {
         let cells = cells_at(interpolant, ranges, level);
         surface.counts.active += cells.len();
-        let settled = settle(&cells, interpolant.mesh().points().len() as u32);
+        let settled = settle(&cells, first_new_vertex(interpolant));
         surface.counts.divided += settled.divided;
         surface.counts.unresolved += settled.unresolved;
         let patches = tessellations(&cells, &settled.pieces, fineness);
@@ -74,6 +76,11 @@ pub fn contour_surface(
         add_level(&mut surface, &cells, &patches, &flat_faces);
     }
     surface
+}
+
+/// The number from which vertices that divisions add are numbered.
+fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
+    interpolant.mesh().points().len() as u32
 }
 
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {

@@ -1,0 +1,148 @@
+//! Contours as VTK's polygonal data, by the conventions of its contour filter.
+
+use super::chosen_array::ChosenArray;
+use super::resample::{Stencil, interpolate, pick};
+use crate::mesh::Vector;
+use crate::vtk::{
+    ArrayType, AttributeKind, CellArray, DataArray, PolyData, UnstructuredGrid, Values,
+};
+
+/// What the output holds beside contours and the grid's own data.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutputOptions {
+    /// Two-point segments, as VTK's filter writes, each with the data of its own
+    /// cell; else polylines, each with the data of the cell in which it begins.
+    pub segments: bool,
+    /// Points of single precision.
+    pub single: bool,
+    /// The interpolant's gradient at each point, as `Gradients`.
+    pub gradients: bool,
+    /// The unit vector against the gradient, as `Normals`.
+    pub normals: bool,
+}
+
+impl OutputOptions {
+    /// Whether the gradient is needed.
+    pub fn need_gradients(&self) -> bool {
+        self.gradients || self.normals
+    }
+
+    /// A position in the precision of the output.
+    pub fn rounded(&self, position: &Vector) -> Vector {
+        if self.single { position.map(|x| f64::from(x as f32)) } else { *position }
+    }
+}
+
+/// The name of the array that says which cell each contour cell, and each point, comes from.
+pub const ORIGINAL_CELLS: &str = "OriginalCellIds";
+
+/// A point of a contour, and what it came from.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputPoint {
+    /// Where it is.
+    pub position: Vector,
+    /// The points of the grid around it.
+    pub stencil: Stencil,
+    /// Its level.
+    pub level: f64,
+    /// The cell of the grid that holds it.
+    pub parent: u32,
+    /// The interpolant's gradient, if it is needed.
+    pub gradient: Vector,
+}
+
+/// Contours in the making.
+pub struct Output<'a> {
+    /// The grid whose data are carried over.
+    pub grid: &'a UnstructuredGrid,
+    /// What was contoured.
+    pub chosen: &'a ChosenArray<'a>,
+    /// What to put out.
+    pub options: OutputOptions,
+    /// The points.
+    pub points: Vec<OutputPoint>,
+    /// Lines.
+    pub lines: CellArray,
+    /// Triangles.
+    pub polys: CellArray,
+    /// The cell of the grid of each line, and then of each triangle.
+    pub parents: Vec<u32>,
+}
+
+impl<'a> Output<'a> {
+    /// No contours yet.
+    pub fn new(
+        grid: &'a UnstructuredGrid,
+        chosen: &'a ChosenArray<'a>,
+        options: OutputOptions,
+    ) -> Self {
+        let (lines, polys) = (CellArray::new(), CellArray::new());
+        Self { grid, chosen, options, points: Vec::new(), lines, polys, parents: Vec::new() }
+    }
+
+    /// The contours with all data of the grid.
+    ///
+    /// Point data are interpolated linearly, but for the contoured array itself,
+    /// which is exactly the level. Cell data are those of the parent cells, field
+    /// data are passed on.
+    pub fn poly_data(self) -> PolyData {
+        let mut data = PolyData::new(self.coordinates());
+        data.cell_data = pick(&self.grid.cell_data, &self.parents);
+        data.cell_data.push(cell_numbers(self.parents.iter().copied()));
+        data.field_data = self.grid.field_data.clone();
+        self.add_point_data(&mut data);
+        (data.lines, data.polys) = (self.lines, self.polys);
+        data
+    }
+
+    fn coordinates(&self) -> DataArray {
+        let coordinates = self.points.iter().flat_map(|point| <[f64; 3]>::from(point.position));
+        if self.options.single {
+            DataArray::new("Points", 3, coordinates.map(|x| x as f32).collect::<Vec<f32>>())
+        } else {
+            DataArray::new("Points", 3, coordinates.collect::<Vec<f64>>())
+        }
+    }
+
+    fn add_point_data(&self, data: &mut PolyData) {
+        let stencils: Vec<Stencil> = self.points.iter().map(|point| point.stencil).collect();
+        data.point_data = interpolate(&self.grid.point_data, &stencils);
+        let levels = self.points.iter().map(|point| point.level).collect();
+        let scalars = exact_levels(self.chosen, levels);
+        let name = scalars.name.clone();
+        data.point_data.push(scalars);
+        data.point_data.set_active(AttributeKind::Scalars, &name);
+        data.point_data.push(cell_numbers(self.points.iter().map(|point| point.parent)));
+        self.add_gradients(data);
+    }
+
+    fn add_gradients(&self, data: &mut PolyData) {
+        let gradients = self.points.iter().map(|point| point.gradient);
+        if self.options.gradients {
+            let components: Vec<f64> = gradients.clone().flat_map(|g| [g.x, g.y, g.z]).collect();
+            data.point_data.push(DataArray::new("Gradients", 3, components));
+        }
+        if self.options.normals {
+            let downhill = |g: Vector| -g.try_normalize(0.0).unwrap_or_default();
+            let normals = gradients.map(downhill).flat_map(|n| [n.x, n.y, n.z]);
+            let normals: Vec<f32> = normals.map(|x| x as f32).collect();
+            data.point_data.push(DataArray::new("Normals", 3, normals));
+            data.point_data.set_active(AttributeKind::Normals, "Normals");
+        }
+    }
+}
+
+/// The contoured array on the output: exactly the level. Integers become `f64`,
+/// for levels need not be whole.
+fn exact_levels(chosen: &ChosenArray, levels: Vec<f64>) -> DataArray {
+    let values = if chosen.array.array_type() == ArrayType::F32 {
+        Values::F32(levels.into_iter().map(|level| level as f32).collect())
+    } else {
+        Values::F64(levels)
+    };
+    DataArray::new(chosen.label(), 1, values)
+}
+
+fn cell_numbers(cells: impl Iterator<Item = u32>) -> DataArray {
+    DataArray::new(ORIGINAL_CELLS, 1, cells.map(i64::from).collect::<Vec<i64>>())
+}

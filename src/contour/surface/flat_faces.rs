@@ -60,6 +60,7 @@ fn add_face(cell: &Cell, face: &FlatFace, sides: u32, tessellation: &mut Tessell
             let weights =
                 [sides - row, row - place, place].map(|n| f64::from(n) / f64::from(sides));
             tessellation.points.push(point(cell, corners, weights));
+            tessellation.rays.push([0.0; 4]);
             tessellation.point_cells.push(face.cell);
         }
     }

@@ -1,6 +1,5 @@
 //! Iso-surfaces in tetrahedra.
 
-mod adaptive;
 mod budget;
 mod cell;
 mod contour_surface;
@@ -9,6 +8,7 @@ mod flat_faces;
 mod owner;
 mod patch;
 mod piece;
+mod refinement;
 mod settle;
 mod surface_builder;
 mod tessellation;
@@ -24,8 +24,9 @@ use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TetrahedronCubics;
 use cell::Cell;
 use patch::Patch;
+use piece::Piece;
 use settle::settle;
-use surface_builder::add_level;
+use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
 
 /// How fine a surface is.
@@ -61,19 +62,19 @@ pub fn contour_surface(
     surface.counts.unusable = ranges.unusable();
     for &level in levels {
         let cells = cells_at(interpolant, ranges, level);
-        surface.counts.active += cells.len();
         let settled = settle(&cells, first_new_vertex(interpolant));
+        surface.counts.active += cells.len();
         surface.counts.divided += settled.divided;
         surface.counts.unresolved += settled.unresolved;
-        let patches = tessellations(&cells, &settled.pieces, fineness);
-        surface.counts.coarse += patches.iter().map(|chunk| chunk.coarse).sum::<usize>();
-        let mut flat_faces = Tessellation::default();
-        let sides = match fineness {
-            Fineness::PointsPerSide(points) => points.max(2) - 1,
-            Fineness::Tolerance(_) => 1,
+        let (points, tolerance) = match fineness {
+            Fineness::PointsPerSide(points) => (points.max(2), None),
+            Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
         };
-        flat_faces::add_flat_faces(&cells, sides, &mut flat_faces);
-        add_level(&mut surface, &cells, &patches, &flat_faces);
+        let patches = tessellations(&cells, &settled.pieces, points);
+        let mut flat_faces = Tessellation::default();
+        flat_faces::add_flat_faces(&cells, points - 1, &mut flat_faces);
+        let level = Level { cells: &cells, pieces: &settled.pieces, tolerance };
+        add_level(&mut surface, &level, &patches, &flat_faces);
     }
     surface
 }
@@ -90,19 +91,15 @@ fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64
     active.par_iter().filter_map(cell).collect()
 }
 
-fn tessellations(cells: &[Cell], pieces: &[piece::Piece], fineness: Fineness) -> Vec<Tessellation> {
-    let tessellated = pieces.par_chunks(CHUNK).map(|chunk| {
+fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {
+    let chunks = pieces.par_chunks(CHUNK).enumerate();
+    let tessellated = chunks.map(|(chunk, pieces)| {
         let mut tessellation = Tessellation::default();
-        for piece in chunk {
+        for (place, piece) in pieces.iter().enumerate() {
+            let number = (chunk * CHUNK + place) as u32;
+            tessellation.patches.push((number, tessellation.triangles.len()));
             let patch = Patch { cell: &cells[piece.cell as usize], piece };
-            match fineness {
-                Fineness::PointsPerSide(points) => {
-                    uniform::tessellate(&patch, points.max(2), &mut tessellation);
-                }
-                Fineness::Tolerance(tolerance) => {
-                    adaptive::tessellate(&patch, tolerance, &mut tessellation);
-                }
-            }
+            uniform::tessellate(&patch, points, &mut tessellation);
         }
         tessellation
     });

@@ -1,39 +1,56 @@
 //! From the triangles of patches to one surface: shared points are stored once.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::cell::Cell;
 use super::contour_surface::{ContourSurface, SurfacePoint};
 use super::flat_faces::are_in_flat_face;
 use super::owner::Owner;
+use super::patch::PatchPoint;
+use super::piece::Piece;
+use super::refinement::{Facet, Refinement};
 use super::tessellation::Tessellation;
+
+/// A level's cells and pieces, and how far triangles may be from it, if that decides how
+/// fine they are.
+pub struct Level<'a> {
+    /// The active cells.
+    pub cells: &'a [Cell],
+    /// The pieces.
+    pub pieces: &'a [Piece],
+    /// The tolerance.
+    pub tolerance: Option<f64>,
+}
 
 /// Adds the triangles of a level: those of patches, chunk by chunk, and those of faces that
 /// lie on the level.
 pub fn add_level(
     surface: &mut ContourSurface,
-    cells: &[Cell],
+    level: &Level,
     patches: &[Tessellation],
     flat_faces: &Tessellation,
 ) {
     let (first_point, first_triangle) = (surface.points.len(), surface.triangles.len());
-    let mut builder = Builder { surface, cells, places: HashMap::new(), collapsed: false };
+    let (places, on_level, facets) = (HashMap::new(), HashSet::new(), Vec::new());
+    let mut builder = Builder { surface, level, places, facets, on_level, collapsed: false };
     for chunk in patches {
         builder.add(chunk, true);
     }
     builder.add(flat_faces, false);
-    if builder.collapsed {
-        drop_doubles(surface, first_triangle);
-    }
+    builder.finish();
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
 }
 
 struct Builder<'a> {
     surface: &'a mut ContourSurface,
-    cells: &'a [Cell],
+    level: &'a Level<'a>,
     /// Where the points are that patches share.
     places: HashMap<Owner, u32>,
+    /// The triangles.
+    facets: Vec<Facet>,
+    /// Points that are vertices on the level.
+    on_level: HashSet<u32>,
     /// Whether some points of patches fell together on the level.
     collapsed: bool,
 }
@@ -41,16 +58,24 @@ struct Builder<'a> {
 impl Builder<'_> {
     fn add(&mut self, chunk: &Tessellation, without_flat_faces: bool) {
         let places: Vec<u32> = (0..chunk.points.len()).map(|n| self.place(chunk, n)).collect();
-        for triangle in &chunk.triangles {
-            let [a, b, c] = triangle.map(|point| places[point as usize]);
-            let corners = triangle.map(|point| &chunk.points[point as usize]);
+        let mut patches = chunk.patches.iter().peekable();
+        let mut piece = None;
+        for (n, triangle) in chunk.triangles.iter().enumerate() {
+            while let Some((number, _)) = patches.next_if(|(_, first)| *first <= n) {
+                piece = Some(*number);
+            }
+            let corners = triangle.map(|point| places[point as usize]);
+            let points = triangle.map(|point| &chunk.points[point as usize]);
             let cell = chunk.point_cells[triangle[0] as usize];
-            let cell = &self.cells[cell as usize];
+            let [a, b, c] = corners;
             if a == b || b == c || c == a {
                 self.collapsed = true;
-            } else if !(without_flat_faces && are_in_flat_face(cell, corners)) {
-                self.surface.triangles.push([a, b, c]);
-                self.surface.cells.push(cell.number);
+            } else if !(without_flat_faces
+                && are_in_flat_face(&self.level.cells[cell as usize], points))
+            {
+                let rays = triangle.map(|point| chunk.rays[point as usize]);
+                let at = points.map(|point| point.at);
+                self.facets.push(Facet { corners, piece, rays, at, cell });
             }
         }
     }
@@ -64,42 +89,71 @@ impl Builder<'_> {
             owner => *self.places.entry(owner).or_insert(next),
         };
         if place == next {
-            let cell = &self.cells[chunk.point_cells[n] as usize];
-            self.surface.points.push(SurfacePoint {
-                position: point.position,
-                cell: cell.number,
-                at: cell.in_mesh_order(&point.at),
-            });
+            add_point(self.surface, self.level, point, chunk.point_cells[n]);
+            if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+                self.on_level.insert(place);
+            }
         }
         place
     }
+
+    /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
+    fn finish(mut self) {
+        if self.collapsed {
+            drop_doubles(&mut self.facets);
+        }
+        if let Some(tolerance) = self.level.tolerance {
+            let mut refinement = Refinement {
+                cells: self.level.cells,
+                pieces: self.level.pieces,
+                tolerance,
+                facets: std::mem::take(&mut self.facets),
+                points: Vec::new(),
+                first_point: self.surface.points.len() as u32,
+                on_level: self.on_level,
+                coarse: 0,
+            };
+            refinement.run();
+            let Refinement { facets, points, coarse, .. } = refinement;
+            for (point, cell) in &points {
+                add_point(self.surface, self.level, point, *cell);
+            }
+            self.facets = facets;
+            self.surface.counts.coarse += coarse;
+        }
+        let number = |facet: &Facet| self.level.cells[facet.cell as usize].number;
+        self.surface.triangles.extend(self.facets.iter().map(|facet| facet.corners));
+        self.surface.cells.extend(self.facets.iter().map(number));
+    }
+}
+
+fn add_point(surface: &mut ContourSurface, level: &Level, point: &PatchPoint, cell: u32) {
+    let cell = &level.cells[cell as usize];
+    surface.points.push(SurfacePoint {
+        position: point.position,
+        cell: cell.number,
+        at: cell.in_mesh_order(&point.at),
+    });
 }
 
 /// Takes away pairs of triangles with the same corners and opposite fronts: what is left
 /// of a thin part of the surface when its two sides fall together.
-fn drop_doubles(surface: &mut ContourSurface, first: usize) {
-    let mut named: Vec<([u32; 3], usize)> = surface.triangles[first..]
-        .iter()
-        .enumerate()
-        .map(|(n, triangle)| {
-            let mut name = *triangle;
-            name.sort_unstable();
-            (name, first + n)
-        })
-        .collect();
+fn drop_doubles(facets: &mut Vec<Facet>) {
+    let name = |facet: &Facet| {
+        let mut name = facet.corners;
+        name.sort_unstable();
+        name
+    };
+    let mut named: Vec<([u32; 3], usize)> =
+        facets.iter().enumerate().map(|(place, facet)| (name(facet), place)).collect();
     named.sort_unstable();
-    let mut dropped = vec![false; surface.triangles.len()];
+    let mut dropped = vec![false; facets.len()];
     for same in named.chunk_by(|a, b| a.0 == b.0) {
         let kept = same.len() % 2;
-        for (_, triangle) in &same[kept..] {
-            dropped[*triangle] = true;
+        for (_, place) in &same[kept..] {
+            dropped[*place] = true;
         }
     }
-    let keep = |n: usize| !dropped[n];
-    surface.triangles = kept(&surface.triangles, keep);
-    surface.cells = kept(&surface.cells, keep);
-}
-
-fn kept<T: Copy>(all: &[T], keep: impl Fn(usize) -> bool) -> Vec<T> {
-    all.iter().enumerate().filter(|(n, _)| keep(*n)).map(|(_, one)| *one).collect()
+    let mut dropped = dropped.into_iter();
+    facets.retain(|_| !dropped.next().unwrap_or(false));
 }

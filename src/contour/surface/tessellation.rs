@@ -11,18 +11,21 @@ use crate::bernstein::Sign;
 pub struct Tessellation {
     /// The points; each patch has its own.
     pub points: Vec<PatchPoint>,
+    /// The ray of each point.
+    pub rays: Vec<Ray>,
     /// The cell of each point, as a place among those that are active.
     pub point_cells: Vec<u32>,
     /// The triangles, as places in `points`, with the lower side in front.
     pub triangles: Vec<[u32; 3]>,
-    /// Triangles that are not as fine as asked, because they have been divided too often.
-    pub coarse: usize,
+    /// For each patch, its piece and its first triangle; none for flat faces.
+    pub patches: Vec<(u32, usize)>,
 }
 
 impl Tessellation {
     /// Adds a point of a patch.
     pub fn add_point(&mut self, patch: &Patch, ray: &Ray) -> u32 {
         self.points.push(patch.point(ray));
+        self.rays.push(*ray);
         self.point_cells.push(patch.piece.cell);
         self.points.len() as u32 - 1
     }

@@ -1,0 +1,274 @@
+//! Surfaces as fine as a tolerance asks, and no finer.
+//!
+//! A side of a triangle is divided where it, or the middle of a triangle at its longest
+//! side, is farther from the level set than the tolerance. Sides are marked first and
+//! divided then, in all triangles that have them: so the surface stays closed whatever the
+//! sizes on both sides. The new point is where the ray half way crosses the level.
+//!
+//! The distance is that to the level set, by value over slope, and not that to the curve
+//! in which the surface meets a face: where these are nearly tangent the curve winds
+//! within the surface, and following it would gain nothing.
+
+use std::collections::{HashMap, HashSet};
+
+use rayon::prelude::*;
+
+use super::cell::Cell;
+use super::owner::Owner;
+use super::patch::{Patch, PatchPoint, Ray};
+use super::piece::Piece;
+use crate::bernstein::Barycentric4;
+use crate::mesh::{TetrahedronFrame, Vector};
+
+/// A triangle of a patch.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet {
+    /// Its corners, as places among the points of the surface.
+    pub corners: [u32; 3],
+    /// The patch, by the place of its piece; nothing in a face that lies on the level.
+    pub piece: Option<u32>,
+    /// The rays of its corners.
+    pub rays: [Ray; 3],
+    /// Where its corners are in the cell.
+    pub at: [Barycentric4; 3],
+    /// The cell, as a place among those that are active.
+    pub cell: u32,
+}
+
+/// The sides of a triangle, by the places of their ends; side `n` is opposite corner `n`.
+const SIDES: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+
+/// A side of which no weight differs by more than this from end to end is not divided
+/// further.
+const SHORTEST: f64 = 1.0 / 256.0;
+
+/// Rounds of divisions: a side is then at its shortest, if it was divided in each other one.
+const MAX_ROUNDS: usize = 16;
+
+/// The surface of one level in the making.
+pub struct Refinement<'a> {
+    /// The active cells.
+    pub cells: &'a [Cell],
+    /// The pieces.
+    pub pieces: &'a [Piece],
+    /// How far a triangle may be from the level set.
+    pub tolerance: f64,
+    /// The triangles.
+    pub facets: Vec<Facet>,
+    /// Points that were added, numbered from `first_point` on, and their cells.
+    pub points: Vec<(PatchPoint, u32)>,
+    /// The number of the first point that is added.
+    pub first_point: u32,
+    /// Points that are vertices on the level. Their sides are left alone: where parts of the
+    /// surface fell together there, a side's ends do not tell it from others.
+    pub on_level: HashSet<u32>,
+    /// Triangles that are not as fine as asked, because they would be too small.
+    pub coarse: usize,
+}
+
+/// What a triangle asks for.
+enum Wish {
+    /// Nothing: it is near enough.
+    Nothing,
+    /// Its sides to be divided.
+    Sides([bool; 3]),
+    /// What it cannot have: its sides are the shortest there are.
+    Refused,
+}
+
+impl Refinement<'_> {
+    /// Divides triangles until all are near enough.
+    pub fn run(&mut self) {
+        let mut is_new = vec![true; self.facets.len()];
+        for _ in 0..MAX_ROUNDS {
+            let wishes: Vec<Wish> = self
+                .facets
+                .par_iter()
+                .zip(&is_new)
+                .map(|(facet, new)| if *new { self.wish(facet) } else { Wish::Nothing })
+                .collect();
+            let middles = self.middles(&wishes);
+            self.coarse += wishes.iter().filter(|wish| matches!(wish, Wish::Refused)).count();
+            if middles.is_empty() {
+                return;
+            }
+            is_new = self.divide(&middles);
+        }
+    }
+
+    /// Which sides of a triangle it wants to be divided.
+    fn wish(&self, facet: &Facet) -> Wish {
+        let Some(_) = facet.piece else { return Wish::Nothing };
+        let cell = &self.cells[facet.cell as usize];
+        let frame = TetrahedronFrame::new(cell.corners);
+        let is_far = |at: &Barycentric4| self.is_far(cell, &frame, at);
+        let side_is_far = |[i, j]: [usize; 2]| {
+            [0.25, 0.5, 0.75].iter().any(|&t| is_far(&mix(&facet.at[i], &facet.at[j], t)))
+        };
+        let mut wanted = SIDES.map(side_is_far);
+        if wanted == [false; 3] {
+            let [a, b, c] = &facet.at;
+            let middle = [0, 1, 2, 3].map(|n| (a[n] + b[n] + c[n]) / 3.0);
+            if !is_far(&middle) {
+                return Wish::Nothing;
+            }
+            wanted[longest_side(cell, facet)] = true;
+        }
+        let possible = [0, 1, 2].map(|side| wanted[side] && is_long(facet, side));
+        if possible == [false; 3] { Wish::Refused } else { Wish::Sides(possible) }
+    }
+
+    /// Whether a point is farther from the level set than the tolerance.
+    fn is_far(&self, cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> bool {
+        let slope = frame.gradient(&cell.cubic.barycentric_gradient(at)).norm();
+        // so far a value can change within the tolerance; cells without volume have no
+        // slope, and their neighbours decide
+        let change = self.tolerance * (slope + 0.5 * self.tolerance * bend(cell, frame, at));
+        cell.cubic.value(at).abs() > change
+    }
+
+    /// The middles of all sides that are to be divided, as new points.
+    fn middles(&mut self, wishes: &[Wish]) -> HashMap<[u32; 2], u32> {
+        let mut marked: Vec<([u32; 2], usize, usize)> = Vec::new();
+        for (place, wish) in wishes.iter().enumerate() {
+            if let Wish::Sides(sides) = wish {
+                for side in (0..3).filter(|&side| sides[side]) {
+                    marked.push((name(&self.facets[place], side), place, side));
+                }
+            }
+        }
+        marked.sort_unstable();
+        marked.dedup_by_key(|(name, ..)| *name);
+        let all = marked.len();
+        marked.retain(|(name, ..)| !name.iter().any(|end| self.on_level.contains(end)));
+        self.coarse += all - marked.len();
+        let found: Vec<PatchPoint> = marked
+            .par_iter()
+            .map(|&(_, place, side)| self.middle(&self.facets[place], side).1)
+            .collect();
+        let mut middles = HashMap::with_capacity(marked.len());
+        for (&(name, place, _), point) in marked.iter().zip(found) {
+            // a ray that ends on the level leads to a point that is there already
+            if !matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+                middles.insert(name, self.first_point + self.points.len() as u32);
+                self.points.push((point, self.facets[place].cell));
+            }
+        }
+        middles
+    }
+
+    /// The middle of a side: its ray, and where that crosses the level.
+    fn middle(&self, facet: &Facet, side: usize) -> (Ray, PatchPoint) {
+        let [i, j] = SIDES[side];
+        let ray = mix(&facet.rays[i], &facet.rays[j], 0.5);
+        let cell = &self.cells[facet.cell as usize];
+        let point = match facet.piece {
+            Some(piece) => Patch { cell, piece: &self.pieces[piece as usize] }.point(&ray),
+            None => {
+                let at = mix(&facet.at[i], &facet.at[j], 0.5);
+                PatchPoint { owner: Owner::Patch, at, position: cell.position(&at) }
+            }
+        };
+        (ray, point)
+    }
+
+    /// Divides all triangles with the given sides; returns which of the triangles are new.
+    fn divide(&mut self, middles: &HashMap<[u32; 2], u32>) -> Vec<bool> {
+        let facets = std::mem::take(&mut self.facets);
+        let parts: Vec<Vec<Facet>> =
+            facets.par_iter().map(|facet| self.parts(facet, middles)).collect();
+        let is_new = |parts: &Vec<Facet>| std::iter::repeat_n(parts.len() > 1, parts.len());
+        let new = parts.iter().flat_map(is_new).collect();
+        self.facets = parts.into_iter().flatten().collect();
+        new
+    }
+
+    /// The parts of a triangle: one to four.
+    fn parts(&self, facet: &Facet, middles: &HashMap<[u32; 2], u32>) -> Vec<Facet> {
+        let divided = [0, 1, 2].map(|side| middles.get(&name(facet, side)).copied());
+        // corners, then middles of the sides opposite them
+        let corner = |n: usize| (facet.corners[n], facet.rays[n], facet.at[n]);
+        let mut points = [0, 1, 2, 0, 0, 0].map(corner);
+        for side in 0..3 {
+            if let Some(number) = divided[side] {
+                let (ray, point) = self.middle(facet, side);
+                points[3 + side] = (number, ray, point.at);
+            }
+        }
+        let length = |i: usize, j: usize| {
+            let cell = &self.cells[facet.cell as usize];
+            (cell.position(&points[j].2) - cell.position(&points[i].2)).norm_squared()
+        };
+        let part = |[a, b, c]: [usize; 3]| Facet {
+            corners: [points[a].0, points[b].0, points[c].0],
+            rays: [points[a].1, points[b].1, points[c].1],
+            at: [points[a].2, points[b].2, points[c].2],
+            ..*facet
+        };
+        split(divided.map(|middle| middle.is_some()), length).into_iter().map(part).collect()
+    }
+}
+
+/// The triangles into which one is split whose sides are divided or not: corners 0 to 2,
+/// middles 3 to 5 of the sides opposite. Quadrilaterals are cut by their shorter diagonal.
+fn split(divided: [bool; 3], length: impl Fn(usize, usize) -> f64) -> Vec<[usize; 3]> {
+    match divided.iter().filter(|divided| **divided).count() {
+        0 => vec![[0, 1, 2]],
+        1 => {
+            let a = divided.iter().position(|divided| *divided).unwrap_or(0);
+            let (b, c, middle) = ((a + 1) % 3, (a + 2) % 3, a + 3);
+            vec![[a, b, middle], [a, middle, c]]
+        }
+        2 => {
+            // the corner between the two divided sides is cut off
+            let a = divided.iter().position(|divided| !*divided).unwrap_or(0);
+            let (b, c) = ((a + 1) % 3, (a + 2) % 3);
+            let (of_b, of_c) = (b + 3, c + 3);
+            let mut parts = vec![[a, of_c, of_b]];
+            if length(b, of_b) <= length(of_c, c) {
+                parts.extend([[of_c, b, of_b], [b, c, of_b]]);
+            } else {
+                parts.extend([[of_c, b, c], [of_c, c, of_b]]);
+            }
+            parts
+        }
+        _ => vec![[0, 5, 4], [1, 3, 5], [2, 4, 3], [3, 4, 5]],
+    }
+}
+
+/// The name of a side: its ends, ascending.
+fn name(facet: &Facet, side: usize) -> [u32; 2] {
+    let [a, b] = SIDES[side].map(|corner| facet.corners[corner]);
+    [a.min(b), a.max(b)]
+}
+
+/// The size of the second derivatives.
+fn bend(cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> f64 {
+    let hessian = cell.cubic.barycentric_hessian(at);
+    let gradients = frame.barycentric_gradients();
+    let mut bend = 0.0;
+    for i in 0..4 {
+        for j in 0..4 {
+            bend += hessian[i][j].abs() * gradients[i].norm() * gradients[j].norm();
+        }
+    }
+    bend
+}
+
+fn is_long(facet: &Facet, side: usize) -> bool {
+    let [a, b] = SIDES[side].map(|corner| &facet.rays[corner]);
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > SHORTEST)
+}
+
+fn longest_side(cell: &Cell, facet: &Facet) -> usize {
+    let corners: [Vector; 3] = facet.at.map(|at| cell.position(&at));
+    let length = |side: usize| {
+        let [i, j] = SIDES[side];
+        (corners[j] - corners[i]).norm_squared()
+    };
+    (0..3).max_by(|&a, &b| length(a).total_cmp(&length(b))).unwrap_or(0)
+}
+
+fn mix(a: &[f64; 4], b: &[f64; 4], t: f64) -> [f64; 4] {
+    [0, 1, 2, 3].map(|n| (1.0 - t) * a[n] + t * b[n])
+}

@@ -3,38 +3,46 @@
 //! Around each point a polynomial is fitted by least squares to the values at
 //! the point's neighbours, passing through the value at the point itself; its
 //! slope there is the recovered gradient. If the values are those of a
-//! polynomial of the fitted degree, on any mesh, the gradient is exact: also on
-//! the boundary, where the patch simply grows inwards.
+//! polynomial of the fitted degree, the gradient is exact wherever the mesh
+//! determines it: also on the boundary, where the patch simply grows inwards.
+//!
+//! The slope is a weighted sum of differences of values. The weights tell how wrong it can
+//! be, whatever the values: the patch grows until that is little, and a lower degree is
+//! taken where it promises a smaller error. So a patch that hardly determines a polynomial
+//! (two rows of points on a boundary) cannot make gradients without measure.
 //!
 //! On tetrahedra the fit is in space; on triangles, over the tangent plane at the
 //! point.
 //!
 //! Source: Z. Zhang, A. Naga, *A new finite element gradient recovery method:
-//! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213.
+//! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213. Weights
+//! and the choice of patch and degree are ours.
 
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::patch::Patch;
+use super::patch::{MAX_RINGS, Patch};
+use super::patch_frame::PatchFrame;
+use super::polynomial_fit::{PolynomialFit, Samples};
 use crate::mesh::{PointNeighbours, SimplexMesh, Vector, plane_axes};
 
 /// The degree of the polynomials that are fitted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RecoveryDegree {
     /// Quadratics: gradients of second order.
-    Two,
+    Two = 2,
     /// Cubics: gradients of third order, on larger patches. That is the order
     /// which a cubic interpolant needs.
     #[default]
-    Three,
+    Three = 3,
 }
 
 /// Gradients at the points of triangles or tetrahedra, recovered from one value a
 /// point.
 ///
-/// Where even the largest patch does not determine the polynomial, its degree is
-/// lowered; a point with no usable neighbour gets the gradient zero, a point
-/// whose own value is not finite gets NaN.
+/// Where no patch determines the polynomial well, its degree is lowered; a point
+/// with no usable neighbour gets the gradient zero, a point whose own value is not
+/// finite gets NaN.
 pub fn recover_gradients<const CORNERS: usize>(
     mesh: &SimplexMesh<CORNERS>,
     values: &[f64],
@@ -43,6 +51,7 @@ pub fn recover_gradients<const CORNERS: usize>(
     const { assert!(CORNERS == 3 || CORNERS == 4, "triangles or tetrahedra") };
     let neighbours = PointNeighbours::new(mesh);
     let normals = if CORNERS == 3 { point_normals(mesh) } else { Vec::new() };
+    let recovery = Recovery { points: mesh.points(), neighbours, values, degree: degree as usize };
     (0..mesh.points().len() as u32)
         .into_par_iter()
         .map_init(Patch::default, |patch, point| {
@@ -53,10 +62,80 @@ pub fn recover_gradients<const CORNERS: usize>(
                 Some(normal) => plane_axes(normal).into_iter().collect(),
                 None => [Vector::x(), Vector::y(), Vector::z()].into(),
             };
-            patch.start(point);
-            patch.gradient(mesh.points(), &neighbours, values, &axes, degree)
+            recovery.gradient(patch, point, &axes)
         })
         .collect()
+}
+
+/// An error bound below which no better patch is looked for: inside a mesh it is 0.01 to
+/// 0.05, and this much on a boundary after a ring or two more.
+const SMALL_ERROR: f64 = 0.1;
+
+/// A lower degree must promise an error this many times smaller: the bound is for a coarse
+/// mesh, and on finer ones the higher degree gains.
+const WORTH_OF_A_DEGREE: f64 = 2.0;
+
+/// Rings that tell how the mesh is stretched around a point; one may be a sliver's.
+const FRAME_RINGS: usize = 2;
+
+/// What gradients are recovered from.
+struct Recovery<'a> {
+    points: &'a [Vector],
+    neighbours: PointNeighbours,
+    values: &'a [f64],
+    degree: usize,
+}
+
+impl Recovery<'_> {
+    /// The gradient at a point, in the space of the axes: two in a plane, three in space.
+    fn gradient(&self, patch: &mut Patch, point: u32, axes: &[Vector]) -> Vector {
+        patch.start(point);
+        while patch.rings() < FRAME_RINGS && patch.grow(&self.neighbours) {}
+        let frame = self.frame(patch, point, axes);
+        let fit = |patch: &Patch, rings: usize, degree: usize| {
+            let around = patch.within(rings);
+            Samples { points: self.points, values: self.values, centre: point, around }
+                .fit(&frame, degree)
+        };
+        let mut best = None;
+        for rings in 1..=MAX_RINGS {
+            if rings > patch.rings() && !patch.grow(&self.neighbours) {
+                break;
+            }
+            best = better(best, fit(patch, rings, self.degree), 1.0);
+            if best.is_some_and(|best: PolynomialFit| best.error <= SMALL_ERROR) {
+                return best.map(|best| best.slope).unwrap_or_default();
+            }
+        }
+        for degree in (1..self.degree).rev() {
+            let handicap = WORTH_OF_A_DEGREE.powi((self.degree - degree) as i32);
+            for rings in 1..=patch.rings() {
+                best = better(best, fit(patch, rings, degree), handicap);
+            }
+        }
+        best.map(|best| best.slope).unwrap_or_default()
+    }
+
+    fn frame(&self, patch: &Patch, point: u32, axes: &[Vector]) -> PatchFrame {
+        let offsets = |rings| {
+            let around = patch.within(rings).iter();
+            around.map(|&other| self.points[other as usize] - self.points[point as usize])
+        };
+        PatchFrame::new(offsets(FRAME_RINGS), offsets(1), axes)
+    }
+}
+
+/// The fit of the smaller error, that of the second times a handicap.
+fn better(
+    best: Option<PolynomialFit>,
+    other: Option<PolynomialFit>,
+    handicap: f64,
+) -> Option<PolynomialFit> {
+    let other = other.map(|fit| PolynomialFit { error: handicap * fit.error, ..fit });
+    match (best, other) {
+        (Some(best), Some(other)) if best.error <= other.error => Some(best),
+        (best, other) => other.or(best),
+    }
 }
 
 /// Sums of the normals of the triangles around each point, weighted by area.

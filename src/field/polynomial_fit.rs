@@ -14,6 +14,13 @@ pub(super) struct PolynomialFit {
     pub error: f64,
 }
 
+impl PolynomialFit {
+    /// The same slope, its error taken for so much greater.
+    pub fn at_disadvantage(self, by: f64) -> Self {
+        Self { error: self.error + by, ..self }
+    }
+}
+
 /// The mesh widths over which the function of the error bound changes by its own size.
 const LENGTH: f64 = 3.0;
 
@@ -99,7 +106,7 @@ impl Samples<'_> {
         };
         let mut matrix = SMatrix::<f64, TERMS, TERMS>::zeros();
         for (squared_distance, row, _) in samples() {
-            matrix.syger(weight(squared_distance), &row, &row, 1.0);
+            matrix.ger(weight(squared_distance), &row, &row, 1.0);
         }
         let unit = SMatrix::<f64, TERMS, DIM>::identity();
         let inverse = determined(matrix)?.solve(&unit).transpose();
@@ -116,8 +123,8 @@ impl Samples<'_> {
     }
 }
 
-/// The matrix (of which the lower half counts) factored, unless it is singular up to
-/// rounding. How much of a column the others do not explain does not depend on its scale.
+/// The matrix factored, unless it is singular up to rounding. How much of a column the
+/// others do not explain does not depend on its scale.
 fn determined<const N: usize>(
     matrix: SMatrix<f64, N, N>,
 ) -> Option<Cholesky<f64, nalgebra::Const<N>>> {

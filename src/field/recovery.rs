@@ -67,13 +67,13 @@ pub fn recover_gradients<const CORNERS: usize>(
         .collect()
 }
 
-/// An error bound below which no better patch is looked for: inside a mesh it is 0.01 to
-/// 0.05, and this much on a boundary after a ring or two more.
-const SMALL_ERROR: f64 = 0.1;
+/// An error bound below which no better patch is looked for, in the plane and in space.
+/// Inside a mesh it is 0.01 to 0.05; on a boundary this much after a ring or two more.
+const SMALL_ERROR: [f64; 2] = [0.1, 0.2];
 
-/// A lower degree must promise an error this many times smaller: the bound is for a coarse
-/// mesh, and on finer ones the higher degree gains.
-const WORTH_OF_A_DEGREE: f64 = 2.0;
+/// A lower degree must promise an error smaller by this for each degree, in the plane and in
+/// space: the bound is for a coarse mesh, and on finer ones the higher degree gains.
+const WORTH_OF_A_DEGREE: [f64; 2] = [0.2, 0.25];
 
 /// Rings that tell how the mesh is stretched around a point; one may be a sliver's.
 const FRAME_RINGS: usize = 2;
@@ -97,20 +97,22 @@ impl Recovery<'_> {
             Samples { points: self.points, values: self.values, centre: point, around }
                 .fit(&frame, degree)
         };
+        let small = SMALL_ERROR[axes.len() - 2];
         let mut best = None;
         for rings in 1..=MAX_RINGS {
             if rings > patch.rings() && !patch.grow(&self.neighbours) {
                 break;
             }
-            best = better(best, fit(patch, rings, self.degree), 1.0);
-            if best.is_some_and(|best: PolynomialFit| best.error <= SMALL_ERROR) {
+            best = better(best, fit(patch, rings, self.degree));
+            if best.is_some_and(|best: PolynomialFit| best.error <= small) {
                 return best.map(|best| best.slope).unwrap_or_default();
             }
         }
         for degree in (1..self.degree).rev() {
-            let handicap = WORTH_OF_A_DEGREE.powi((self.degree - degree) as i32);
+            let worth = WORTH_OF_A_DEGREE[axes.len() - 2] * (self.degree - degree) as f64;
             for rings in 1..=patch.rings() {
-                best = better(best, fit(patch, rings, degree), handicap);
+                let fit = fit(patch, rings, degree);
+                best = better(best, fit.map(|fit| fit.at_disadvantage(worth)));
             }
         }
         best.map(|best| best.slope).unwrap_or_default()
@@ -125,13 +127,8 @@ impl Recovery<'_> {
     }
 }
 
-/// The fit of the smaller error, that of the second times a handicap.
-fn better(
-    best: Option<PolynomialFit>,
-    other: Option<PolynomialFit>,
-    handicap: f64,
-) -> Option<PolynomialFit> {
-    let other = other.map(|fit| PolynomialFit { error: handicap * fit.error, ..fit });
+/// The fit of the smaller error.
+fn better(best: Option<PolynomialFit>, other: Option<PolynomialFit>) -> Option<PolynomialFit> {
     match (best, other) {
         (Some(best), Some(other)) if best.error <= other.error => Some(best),
         (best, other) => other.or(best),
@@ -199,8 +196,10 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(50))]
 
+        /// At the corners too, unless the mesh is so uneven there that a lower degree
+        /// is the better choice: points are moved by up to a fifth of the spacing.
         #[test]
-        fn quadratics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), c in prop::array::uniform5(-1.0..1.0f64)) {
+        fn quadratics_are_exact(moves in prop::collection::vec(-0.6..0.6f64, 53), c in prop::array::uniform5(-1.0..1.0f64)) {
             let mesh = shaken_grid(5, &moves, |_, _| 0.0);
             check_exact(
                 &mesh,
@@ -211,7 +210,7 @@ mod tests {
         }
 
         #[test]
-        fn cubics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), a in -1.0..1.0f64, b in -1.0..1.0f64) {
+        fn cubics_are_exact(moves in prop::collection::vec(-0.6..0.6f64, 53), a in -1.0..1.0f64, b in -1.0..1.0f64) {
             let mesh = shaken_grid(6, &moves, |_, _| 0.0);
             check_exact(
                 &mesh,

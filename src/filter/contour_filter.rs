@@ -7,6 +7,7 @@ use super::line_output::LineOutput;
 use super::merge_points::{coincidence_warning, merge_points};
 use super::options::ContourOptions;
 use super::pde_warning::pde_warning;
+use super::range_warning::range_warning;
 use super::solution::{Interpolated, Solution};
 use crate::contour::CellRanges;
 use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
@@ -108,6 +109,8 @@ pub fn contour(
     let solids = solution.solids();
     let mut warnings = solution.pde_warnings().to_vec();
     warnings.extend(coincidence_warning(&solution.triangles.mesh));
+    let origin = &solution.gradients.origin;
+    warnings.extend(range_warning(&solution.chosen.label(), origin, solution.used_values(), range));
     warnings.extend(solution.gradients.warning);
     let report = Report {
         label: solution.chosen.label(),

@@ -19,6 +19,7 @@ mod options;
 mod pde_warning;
 mod picture;
 mod preview;
+mod range_warning;
 mod resample;
 mod solution;
 

@@ -119,6 +119,13 @@ impl<'a> Solution<'a> {
         self.equation.as_ref().map_or(&[], |known| &known.warnings)
     }
 
+    /// The values at the corners of the triangles that are contoured.
+    pub fn used_values(&self) -> impl Iterator<Item = f64> {
+        let triangles = self.triangles.mesh.triangles().iter().enumerate();
+        let used = triangles.filter(|&(triangle, _)| !self.is_ghost(triangle));
+        used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
+    }
+
     /// Whether a triangle belongs to another process.
     pub fn is_ghost(&self, triangle: usize) -> bool {
         is_ghost(self.grid, self.triangles.parents[triangle])

@@ -6,10 +6,11 @@ mod support;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use support::domains::Domain;
 use support::meshes::{Random, random_square};
 use vtu2contour::contour::Levels;
-use vtu2contour::filter::{ContourOptions, GradientSource, contour};
-use vtu2contour::mesh::Vector;
+use vtu2contour::filter::{Component, ContourOptions, GradientSource, InterpolantKind, contour};
+use vtu2contour::mesh::{TriangleMesh, Vector};
 use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
 
 fn sample(name: &str) -> UnstructuredGrid {
@@ -41,8 +42,12 @@ fn the_right_pde_is_used_in_silence() {
 /// sin(kx) cos(ky) on random points, with its gradient: 150 of them are eight a
 /// wavelength.
 fn coarse(seed: u64, points: usize) -> UnstructuredGrid {
+    waves_on(&random_square(&mut Random(seed), points))
+}
+
+/// sin(kx) cos(ky) on a mesh, with its gradient.
+fn waves_on(mesh: &TriangleMesh) -> UnstructuredGrid {
     let k = 3.0 * PI;
-    let mesh = random_square(&mut Random(seed), points);
     let coordinates = mesh.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
     let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
     for triangle in mesh.triangles() {
@@ -106,6 +111,67 @@ fn a_field_array_of_one_number_is_a_parameter() {
     let mut grid = grid;
     grid.field_data.push(DataArray::new("k2", 1, vec![84.4, 1.0]));
     assert!(refusal(&grid, &options).contains("'k2' is a field array, but not of one number"));
+}
+
+fn recovering(array: &str, component: Option<Component>) -> ContourOptions {
+    let gradient = GradientSource::Recovered;
+    ContourOptions {
+        array: Some(array.to_owned()),
+        component,
+        gradient,
+        ..ContourOptions::default()
+    }
+}
+
+#[test]
+fn recovered_gradients_of_the_samples_are_used_in_silence() {
+    for (name, gradient) in [
+        ("islands.vtu", Some("Gradients")),
+        ("plate_with_holes.vtu", Some("grad_u")),
+        ("no_gradient.vtu", None),
+        ("problem4.vtu", Some("gradient")),
+        ("surface.vtu", Some("gradient")),
+    ] {
+        let grid = sample(name);
+        let arrays = gradient.map(|array| (array, Some(Component::Magnitude)));
+        for (array, component) in [("u", None)].into_iter().chain(arrays) {
+            let options = recovering(array, component);
+            let report = contour(&grid, &options, &mut |_| {}).unwrap().report;
+            let values = grid.point_data.get(array).unwrap().to_f64().unwrap();
+            let of_tuple = |tuple: &[f64]| match component {
+                Some(_) => tuple.iter().map(|x| x * x).sum::<f64>().sqrt(),
+                None => tuple[0],
+            };
+            let width = if component.is_some() { 3 } else { 1 };
+            let values = values.chunks(width).map(of_tuple);
+            let low = values.clone().fold(f64::INFINITY, f64::min);
+            let high = values.fold(f64::NEG_INFINITY, f64::max);
+            let beyond = (low - report.range[0]).max(report.range[1] - high) / (high - low);
+            println!("{name} {array}: {:.4?} beyond {low:.4} to {high:.4}", report.range);
+            assert!(beyond < 0.1, "{name} {array}: {beyond}");
+            assert_eq!(report.warnings, Vec::<String>::new(), "{name} {array}");
+        }
+    }
+}
+
+/// Noise is told: cubics swing far about it. Smooth data are not, down to eight points a
+/// wavelength.
+#[test]
+fn cubics_far_beyond_the_values_are_told() {
+    for seed in 0..20 {
+        let mesh = Domain::rectangle("square", 1.0, 1.0).mesh(&mut Random(seed), 0.085);
+        let told = warnings(&waves_on(&mesh), &recovering("u", None));
+        assert_eq!(told, Vec::<String>::new(), "seed {seed}");
+    }
+    let mut grid = coarse(1, 150);
+    let mut random = Random(3);
+    let noise = (0..grid.points.tuples()).map(|_| random.uniform(-1.0, 1.0));
+    grid.point_data.push(DataArray::new("noise", 1, noise.collect::<Vec<f64>>()));
+    let told = warnings(&grid, &recovering("noise", None)).concat();
+    assert!(told.contains("the cubics of 'noise' reach from"), "{told}");
+    let linear = InterpolantKind::Linear;
+    let options = ContourOptions { interpolant: linear, ..recovering("noise", None) };
+    assert!(!warnings(&grid, &options).concat().contains("the cubics of"));
 }
 
 fn refusal(grid: &UnstructuredGrid, options: &ContourOptions) -> String {

@@ -4,6 +4,8 @@
 //! ([`recover_gradients`]) where the file has none.
 
 mod patch;
+mod patch_frame;
+mod polynomial_fit;
 mod recovery;
 
 pub use recovery::{RecoveryDegree, recover_gradients};

@@ -3,38 +3,46 @@
 //! Around each point a polynomial is fitted by least squares to the values at
 //! the point's neighbours, passing through the value at the point itself; its
 //! slope there is the recovered gradient. If the values are those of a
-//! polynomial of the fitted degree, on any mesh, the gradient is exact: also on
-//! the boundary, where the patch simply grows inwards.
+//! polynomial of the fitted degree, the gradient is exact wherever the mesh
+//! determines it: also on the boundary, where the patch simply grows inwards.
+//!
+//! The slope is a weighted sum of differences of values. The weights tell how wrong it can
+//! be, whatever the values: the patch grows until that is little, and a lower degree is
+//! taken where it promises a smaller error. So a patch that hardly determines a polynomial
+//! (two rows of points on a boundary) cannot make gradients without measure.
 //!
 //! On tetrahedra the fit is in space; on triangles, over the tangent plane at the
 //! point.
 //!
 //! Source: Z. Zhang, A. Naga, *A new finite element gradient recovery method:
-//! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213.
+//! superconvergence property*, SIAM J. Sci. Comput. 26 (2005) 1192-1213. Weights
+//! and the choice of patch and degree are ours.
 
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::patch::Patch;
+use super::patch::{MAX_RINGS, Patch};
+use super::patch_frame::PatchFrame;
+use super::polynomial_fit::{PolynomialFit, Samples};
 use crate::mesh::{PointNeighbours, SimplexMesh, Vector, plane_axes};
 
 /// The degree of the polynomials that are fitted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RecoveryDegree {
     /// Quadratics: gradients of second order.
-    Two,
+    Two = 2,
     /// Cubics: gradients of third order, on larger patches. That is the order
     /// which a cubic interpolant needs.
     #[default]
-    Three,
+    Three = 3,
 }
 
 /// Gradients at the points of triangles or tetrahedra, recovered from one value a
 /// point.
 ///
-/// Where even the largest patch does not determine the polynomial, its degree is
-/// lowered; a point with no usable neighbour gets the gradient zero, a point
-/// whose own value is not finite gets NaN.
+/// Where no patch determines the polynomial well, its degree is lowered; a point
+/// with no usable neighbour gets the gradient zero, a point whose own value is not
+/// finite gets NaN.
 pub fn recover_gradients<const CORNERS: usize>(
     mesh: &SimplexMesh<CORNERS>,
     values: &[f64],
@@ -43,6 +51,7 @@ pub fn recover_gradients<const CORNERS: usize>(
     const { assert!(CORNERS == 3 || CORNERS == 4, "triangles or tetrahedra") };
     let neighbours = PointNeighbours::new(mesh);
     let normals = if CORNERS == 3 { point_normals(mesh) } else { Vec::new() };
+    let recovery = Recovery { points: mesh.points(), neighbours, values, degree: degree as usize };
     (0..mesh.points().len() as u32)
         .into_par_iter()
         .map_init(Patch::default, |patch, point| {
@@ -53,10 +62,77 @@ pub fn recover_gradients<const CORNERS: usize>(
                 Some(normal) => plane_axes(normal).into_iter().collect(),
                 None => [Vector::x(), Vector::y(), Vector::z()].into(),
             };
-            patch.start(point);
-            patch.gradient(mesh.points(), &neighbours, values, &axes, degree)
+            recovery.gradient(patch, point, &axes)
         })
         .collect()
+}
+
+/// An error bound below which no better patch is looked for, in the plane and in space.
+/// Inside a mesh it is 0.01 to 0.05; on a boundary this much after a ring or two more.
+const SMALL_ERROR: [f64; 2] = [0.1, 0.2];
+
+/// A lower degree must promise an error smaller by this for each degree, in the plane and in
+/// space: the bound is for a coarse mesh, and on finer ones the higher degree gains.
+const WORTH_OF_A_DEGREE: [f64; 2] = [0.2, 0.25];
+
+/// Rings that tell how the mesh is stretched around a point; one may be a sliver's.
+const FRAME_RINGS: usize = 2;
+
+/// What gradients are recovered from.
+struct Recovery<'a> {
+    points: &'a [Vector],
+    neighbours: PointNeighbours,
+    values: &'a [f64],
+    degree: usize,
+}
+
+impl Recovery<'_> {
+    /// The gradient at a point, in the space of the axes: two in a plane, three in space.
+    fn gradient(&self, patch: &mut Patch, point: u32, axes: &[Vector]) -> Vector {
+        patch.start(point);
+        while patch.rings() < FRAME_RINGS && patch.grow(&self.neighbours) {}
+        let frame = self.frame(patch, point, axes);
+        let fit = |patch: &Patch, rings: usize, degree: usize| {
+            let around = patch.within(rings);
+            Samples { points: self.points, values: self.values, centre: point, around }
+                .fit(&frame, degree)
+        };
+        let small = SMALL_ERROR[axes.len() - 2];
+        let mut best = None;
+        for rings in 1..=MAX_RINGS {
+            if rings > patch.rings() && !patch.grow(&self.neighbours) {
+                break;
+            }
+            best = better(best, fit(patch, rings, self.degree));
+            if best.is_some_and(|best: PolynomialFit| best.error <= small) {
+                return best.map(|best| best.slope).unwrap_or_default();
+            }
+        }
+        for degree in (1..self.degree).rev() {
+            let worth = WORTH_OF_A_DEGREE[axes.len() - 2] * (self.degree - degree) as f64;
+            for rings in 1..=patch.rings() {
+                let fit = fit(patch, rings, degree);
+                best = better(best, fit.map(|fit| fit.at_disadvantage(worth)));
+            }
+        }
+        best.map(|best| best.slope).unwrap_or_default()
+    }
+
+    fn frame(&self, patch: &Patch, point: u32, axes: &[Vector]) -> PatchFrame {
+        let offsets = |rings| {
+            let around = patch.within(rings).iter();
+            around.map(|&other| self.points[other as usize] - self.points[point as usize])
+        };
+        PatchFrame::new(offsets(FRAME_RINGS), offsets(1), axes)
+    }
+}
+
+/// The fit of the smaller error.
+fn better(best: Option<PolynomialFit>, other: Option<PolynomialFit>) -> Option<PolynomialFit> {
+    match (best, other) {
+        (Some(best), Some(other)) if best.error <= other.error => Some(best),
+        (best, other) => other.or(best),
+    }
 }
 
 /// Sums of the normals of the triangles around each point, weighted by area.
@@ -120,8 +196,10 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(50))]
 
+        /// At the corners too, unless the mesh is so uneven there that a lower degree
+        /// is the better choice: points are moved by up to a fifth of the spacing.
         #[test]
-        fn quadratics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), c in prop::array::uniform5(-1.0..1.0f64)) {
+        fn quadratics_are_exact(moves in prop::collection::vec(-0.6..0.6f64, 53), c in prop::array::uniform5(-1.0..1.0f64)) {
             let mesh = shaken_grid(5, &moves, |_, _| 0.0);
             check_exact(
                 &mesh,
@@ -132,7 +210,7 @@ mod tests {
         }
 
         #[test]
-        fn cubics_are_exact(moves in prop::collection::vec(-1.0..1.0f64, 53), a in -1.0..1.0f64, b in -1.0..1.0f64) {
+        fn cubics_are_exact(moves in prop::collection::vec(-0.6..0.6f64, 53), a in -1.0..1.0f64, b in -1.0..1.0f64) {
             let mesh = shaken_grid(6, &moves, |_, _| 0.0);
             check_exact(
                 &mesh,

@@ -8,6 +8,7 @@ use super::line_output::LineOutput;
 use super::merge_points::{coincidence_warning, merge_points};
 use super::options::ContourOptions;
 use super::output::Output;
+use super::range_warning::range_warning;
 use super::report::Report;
 use super::solution::{Domain, Solution};
 use super::surface_output::SurfaceOutput;
@@ -127,12 +128,14 @@ fn report(
         warnings.extend(domain.gradients.warning.clone());
         gradient = domain.gradients.origin.clone();
         triangles = domain.mesh.triangles().len();
+        warnings.extend(in_triangles.and_then(|i| too_far(solution, domain, i.range)));
     }
     if let Some(domain) = &solution.tetrahedra {
         warnings.extend(coincidence_warning(&domain.mesh));
         warnings.extend(domain.gradients.warning.clone());
         gradient = domain.gradients.origin.clone();
         tetrahedra = domain.mesh.tetrahedra().len();
+        warnings.extend(in_tetrahedra.and_then(|i| too_far(solution, domain, i.range)));
     }
     warnings.dedup();
     let in_both = |of_triangles: fn(&InTriangles) -> usize,
@@ -156,4 +159,14 @@ fn report(
         fineness: None,
         warnings,
     }
+}
+
+/// What people should know of an interpolant that goes far beyond the values.
+fn too_far<const CORNERS: usize>(
+    solution: &Solution,
+    domain: &Domain<CORNERS>,
+    range: [f64; 2],
+) -> Option<String> {
+    let values = solution.used_values(domain);
+    range_warning(&solution.chosen.label(), &domain.gradients.origin, values, range)
 }

@@ -21,6 +21,7 @@ mod output;
 mod pde_warning;
 mod picture;
 mod preview;
+mod range_warning;
 mod report;
 mod resample;
 mod solution;

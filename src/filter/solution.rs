@@ -1,6 +1,6 @@
 //! A finite-element solution taken from a grid: cells, values, gradients, PDE.
 
-use super::cells::{Cells, Part};
+use super::cells::{Cells, Part, is_ghost};
 use super::chosen_array::ChosenArray;
 use super::error::FilterError;
 use super::gradients::Gradients;
@@ -72,6 +72,16 @@ impl<'a> Solution<'a> {
     /// Values and gradients on a domain.
     pub fn field<'b, const CORNERS: usize>(&'b self, domain: &'b Domain<CORNERS>) -> Field<'b> {
         Field { values: &self.values, gradients: &domain.gradients.vectors }
+    }
+
+    /// The values at the corners of the cells that are contoured.
+    pub fn used_values<'b, const CORNERS: usize>(
+        &'b self,
+        domain: &'b Domain<CORNERS>,
+    ) -> impl Iterator<Item = f64> + 'b {
+        let cells = domain.mesh.simplices().iter().zip(&domain.parents);
+        let used = cells.filter(|(_, parent)| !is_ghost(self.grid, **parent));
+        used.flat_map(|(corners, _)| corners.map(|point| self.values[point as usize]))
     }
 
     /// What people should know about the PDE's parameters, a line each.

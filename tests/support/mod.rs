@@ -6,6 +6,7 @@ pub mod brute_force_3d;
 pub mod cells;
 pub mod delaunay_3d;
 pub mod distance;
+pub mod domains;
 pub mod meshes;
 pub mod order;
 pub mod polynomial;

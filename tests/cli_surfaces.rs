@@ -40,25 +40,26 @@ fn floats(data: &PolyData, name: &str) -> Vec<f64> {
 #[test]
 fn a_sphere_is_one() {
     let bench = bench();
-    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "4", "--normals", "--gradients"]);
+    let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "4.1", "--normals", "--gradients"]);
     assert_eq!(said, "");
     let sphere = read_lines(&bench.path("out.vtp"));
     assert!(sphere.polys.len() > 100 && sphere.lines.is_empty());
+    let radius = 4.1_f64.sqrt();
     let points = sphere.points.to_f64().unwrap();
     let (gradients, normals) = (floats(&sphere, "Gradients"), floats(&sphere, "Normals"));
     for n in 0..points.len() / 3 {
         let of = |values: &[f64]| [values[3 * n], values[3 * n + 1], values[3 * n + 2]];
         let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let point = of(&points);
-        // quadratics are exact, so all points lie on the sphere of radius 2
-        assert!((length(point) - 2.0).abs() < 1e-13, "{point:?}");
+        // quadratics are exact, so all points lie on the sphere
+        assert!((length(point) - radius).abs() < 1e-13, "{point:?}");
         for (k, x) in point.into_iter().enumerate() {
             assert!((of(&gradients)[k] - 2.0 * x).abs() < 1e-12);
             // normals are along -grad u, of single precision
-            assert!((of(&normals)[k] + x / 2.0).abs() < 1e-6);
+            assert!((of(&normals)[k] + x / radius).abs() < 1e-6);
         }
     }
-    assert!(floats(&sphere, "u").iter().all(|&u| u == 4.0));
+    assert!(floats(&sphere, "u").iter().all(|&u| u == 4.1));
     let cubes = sphere.cell_data.get("cube").unwrap().to_f64();
     assert_eq!(cubes, sphere.cell_data.get("OriginalCellIds").unwrap().to_f64());
 }

@@ -63,7 +63,7 @@ impl Report {
             (coarse, "# arcs are not as fine as asked: they have too many points"),
             (
                 solid.coarse,
-                "# triangles are not as fine as asked: they have been divided too often",
+                "# triangles are not as fine as asked: they are too small, or at points on the level",
             ),
         ];
         if self.left_out.total() > 0 {

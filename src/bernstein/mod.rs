@@ -18,6 +18,7 @@
 
 pub mod a_patch;
 mod barycentric;
+mod bounds;
 mod factors;
 mod roots;
 mod segment;
@@ -26,10 +27,10 @@ mod tetrahedron;
 mod tetrahedron_patch;
 mod triangle;
 
-pub use barycentric::{Barycentric, between};
+pub use barycentric::{Barycentric, Barycentric4, between, vertices};
 pub use roots::{MAX_ROOTS, Root, RootKind, Roots};
 pub use segment::SegmentCubic;
 pub use sign::Sign;
-pub use tetrahedron::{Barycentric4, TetrahedronCubic};
+pub use tetrahedron::TetrahedronCubic;
 pub use tetrahedron_patch::PatchCertificate;
 pub use triangle::TriangleCubic;

@@ -1,10 +1,9 @@
 //! Cubic polynomials on a tetrahedron.
 
+use super::barycentric::Barycentric4;
+use super::bounds::bounds;
 use super::segment::SegmentCubic;
 use super::triangle::TriangleCubic;
-
-/// Barycentric coordinates in a tetrahedron: weights of its four vertices.
-pub type Barycentric4 = [f64; 4];
 
 /// A cubic polynomial on a tetrahedron, by its twenty Bernstein coefficients.
 ///
@@ -83,6 +82,9 @@ impl TetrahedronCubic {
         position([1, 1, 0, 1]),
         position([1, 1, 1, 0]),
     ];
+
+    /// The vertices of each face, ascending, by the vertex opposite to it.
+    pub const FACE_VERTICES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
     /// The cubic with the given coefficients, layer by layer from vertex 0.
     pub fn new(coefficients: [f64; 20]) -> Self {
@@ -216,9 +218,7 @@ impl TetrahedronCubic {
     /// Certain bounds: the least and the greatest coefficient. The polynomial lies
     /// between them everywhere in the tetrahedron.
     pub fn bounds(&self) -> (f64, f64) {
-        self.coefficients
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
+        bounds(&self.coefficients)
     }
 }
 

@@ -131,7 +131,7 @@ impl Layers {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tetrahedron::Barycentric4;
+    use super::super::barycentric::Barycentric4;
     use super::*;
     use Sign::{Above, Below};
     use proptest::prelude::*;

@@ -3,6 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::barycentric::Barycentric;
+use super::bounds::bounds;
 use super::segment::SegmentCubic;
 
 /// A cubic polynomial on a triangle, by its ten Bernstein coefficients.
@@ -125,6 +126,12 @@ impl TriangleCubic {
         [[a, b, c], [b, d, e], [c, e, f]]
     }
 
+    /// The values at the three vertices, which are coefficients too.
+    pub fn vertices(&self) -> [f64; 3] {
+        let [a, _, _, _, _, _, b, _, _, c] = self.coefficients;
+        [a, b, c]
+    }
+
     /// The edge opposite `vertex`, from vertex `vertex + 1` to vertex `vertex + 2`.
     pub fn edge(&self, vertex: usize) -> SegmentCubic {
         SegmentCubic::new(EDGES[vertex].map(|position| self.coefficients[position]))
@@ -200,9 +207,7 @@ impl TriangleCubic {
     /// Certain bounds: the least and the greatest coefficient. The polynomial
     /// lies between them everywhere in the triangle.
     pub fn bounds(&self) -> (f64, f64) {
-        self.coefficients
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
+        bounds(&self.coefficients)
     }
 }
 

@@ -6,7 +6,7 @@
 //! The result is a value that the cubic *attains*, so it lies inside the certain
 //! bounds; it may fall short of the true extreme.
 
-use crate::bernstein::{Barycentric, SegmentCubic, TriangleCubic, between};
+use crate::bernstein::{Barycentric, SegmentCubic, TriangleCubic, between, vertices};
 
 /// Which extreme is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,11 +45,11 @@ impl Extreme {
 
 /// A value of a cubic and where it is attained.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attained {
+pub struct Attained<const CORNERS: usize> {
     /// The value.
     pub value: f64,
     /// Where, in barycentric coordinates.
-    pub at: Barycentric,
+    pub at: [f64; CORNERS],
 }
 
 /// Recursive steps: each follows the extreme into a triangle about half as
@@ -57,8 +57,8 @@ pub struct Attained {
 const MAX_LEVEL: usize = 6;
 
 /// The extreme of `cubic` that the recursive search finds.
-pub fn recursive_extreme(cubic: &TriangleCubic, which: Extreme) -> Attained {
-    search(cubic, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], which, 1)
+pub fn recursive_extreme(cubic: &TriangleCubic, which: Extreme) -> Attained<3> {
+    search(cubic, vertices(), which, 1)
 }
 
 fn search(
@@ -66,7 +66,7 @@ fn search(
     corners: [Barycentric; 3],
     which: Extreme,
     level: usize,
-) -> Attained {
+) -> Attained<3> {
     let sides = [0, 1, 2].map(|side| {
         let (start, end) = (corners[(side + 1) % 3], corners[(side + 2) % 3]);
         extreme_on_side(&cubic.restrict(&start, &end), &start, &end, which)
@@ -85,7 +85,7 @@ fn extreme_on_side(
     start: &Barycentric,
     end: &Barycentric,
     which: Extreme,
-) -> (Attained, bool) {
+) -> (Attained<3>, bool) {
     let mut best = (side.coefficients[0], 0.0);
     for t in side.critical_points().into_iter().chain([1.0]) {
         let value = side.value(t);
@@ -97,7 +97,11 @@ fn extreme_on_side(
     (Attained { value, at: between(start, end, t) }, t > 0.0 && t < 1.0)
 }
 
-fn best_of(found: &[Attained], which: Extreme) -> Attained {
+/// The most extreme of some.
+pub fn best_of<const CORNERS: usize>(
+    found: &[Attained<CORNERS>],
+    which: Extreme,
+) -> Attained<CORNERS> {
     let mut best = found[0];
     for candidate in &found[1..] {
         if which.better(candidate.value, best.value) != best.value {

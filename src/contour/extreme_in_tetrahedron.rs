@@ -4,33 +4,15 @@
 //! The extreme of each face is sought as on a triangle; the four points found form a
 //! smaller tetrahedron, in which the search goes on.
 
-use super::extreme::{Extreme, recursive_extreme};
-use crate::bernstein::{Barycentric4, TetrahedronCubic};
-
-/// A value of a cubic and where it is attained.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttainedInTetrahedron {
-    /// The value.
-    pub value: f64,
-    /// Where, in barycentric coordinates.
-    pub at: Barycentric4,
-}
+use super::extreme::{Attained, Extreme, best_of, recursive_extreme};
+use crate::bernstein::{Barycentric4, TetrahedronCubic, vertices};
 
 /// Recursive steps; each follows the extreme into a tetrahedron about half as large.
 const MAX_LEVEL: usize = 5;
 
-const VERTICES: [Barycentric4; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-
-/// The faces, by their vertices; face `n` is opposite vertex `n`.
-const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
-
 /// The extreme of `cubic` that the recursive search finds: a value that it attains.
-pub fn recursive_extreme_in_tetrahedron(
-    cubic: &TetrahedronCubic,
-    which: Extreme,
-) -> AttainedInTetrahedron {
-    search(cubic, &VERTICES, which, 1)
+pub fn recursive_extreme_in_tetrahedron(cubic: &TetrahedronCubic, which: Extreme) -> Attained<4> {
+    search(cubic, &vertices(), which, 1)
 }
 
 fn search(
@@ -38,12 +20,12 @@ fn search(
     corners: &[Barycentric4; 4],
     which: Extreme,
     level: usize,
-) -> AttainedInTetrahedron {
+) -> Attained<4> {
     let here = cubic.sub_tetrahedron(corners);
-    let on_faces = FACES.map(|face| {
+    let on_faces = TetrahedronCubic::FACE_VERTICES.map(|face| {
         let found = recursive_extreme(&here.face(face), which);
         let at = [0, 1, 2, 3].map(|n| (0..3).map(|c| found.at[c] * corners[face[c]][n]).sum());
-        AttainedInTetrahedron { value: found.value, at }
+        Attained { value: found.value, at }
     });
     let best = best_of(&on_faces, which);
     let is_corner = on_faces.iter().all(|found| corners.contains(&found.at));
@@ -52,16 +34,6 @@ fn search(
     }
     let inner = search(cubic, &on_faces.map(|found| found.at), which, level + 1);
     best_of(&[best, inner], which)
-}
-
-fn best_of(found: &[AttainedInTetrahedron], which: Extreme) -> AttainedInTetrahedron {
-    let mut best = found[0];
-    for candidate in &found[1..] {
-        if which.better(candidate.value, best.value) != best.value {
-            best = *candidate;
-        }
-    }
-    best
 }
 
 #[cfg(test)]

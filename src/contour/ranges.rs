@@ -28,13 +28,19 @@ impl CellRanges {
     /// The ranges of all triangles of `interpolant`.
     pub fn new(interpolant: &dyn TriangleCubics) -> Self {
         let cells = interpolant.mesh().triangles().len();
-        Self::of_bounds(cells, |cell| bounds(&interpolant.cubic(cell).coefficients))
+        Self::of_bounds(cells, |cell| {
+            let cubic = interpolant.cubic(cell);
+            usable(&cubic.coefficients, cubic.bounds())
+        })
     }
 
     /// The ranges of all tetrahedra of `interpolant`.
     pub fn of_tetrahedra(interpolant: &dyn TetrahedronCubics) -> Self {
         let cells = interpolant.mesh().tetrahedra().len();
-        Self::of_bounds(cells, |cell| bounds(&interpolant.cubic(cell).coefficients))
+        Self::of_bounds(cells, |cell| {
+            let cubic = interpolant.cubic(cell);
+            usable(&cubic.coefficients, cubic.bounds())
+        })
     }
 
     fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f64; 2] + Sync + Send) -> Self {
@@ -100,11 +106,8 @@ impl CellRanges {
     /// Levels strictly between them have a contour, which is not so for levels
     /// between the extreme coefficients.
     pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
-        let at_vertices = |cell: usize, which: Extreme| {
-            let cubic = interpolant.cubic(cell);
-            let values = [0, 1, 2].map(|vertex| cubic.edge(vertex).coefficients[0]);
-            which.best(&values)
-        };
+        let at_vertices =
+            |cell: usize, which: Extreme| which.best(&interpolant.cubic(cell).vertices());
         let search =
             |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
         self.attained_by(&at_vertices, &search)
@@ -112,11 +115,8 @@ impl CellRanges {
 
     /// The same as [`CellRanges::attained`], for tetrahedra.
     pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
-        let at_vertices = |cell: usize, which: Extreme| {
-            let cubic = interpolant.cubic(cell);
-            let values = [0, 1, 2, 3].map(|n| cubic.edge([n, (n + 1) % 4]).coefficients[0]);
-            which.best(&values)
-        };
+        let at_vertices =
+            |cell: usize, which: Extreme| which.best(&interpolant.cubic(cell).vertices());
         let search = |cell: usize, which: Extreme| {
             recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
         };
@@ -150,13 +150,7 @@ impl CellRanges {
 /// An extreme value of a cell.
 type Attained<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
 
-/// Least and greatest coefficient; empty if one is not finite.
-fn bounds(coefficients: &[f64]) -> [f64; 2] {
-    let (mut low, mut high, mut finite) = (f64::INFINITY, f64::NEG_INFINITY, true);
-    for &coefficient in coefficients {
-        low = low.min(coefficient);
-        high = high.max(coefficient);
-        finite &= coefficient.is_finite();
-    }
-    if finite { [low, high] } else { EMPTY }
+/// The bounds of a cubic; empty if a coefficient is not finite.
+fn usable(coefficients: &[f64], (low, high): (f64, f64)) -> [f64; 2] {
+    if coefficients.iter().all(|c| c.is_finite()) { [low, high] } else { EMPTY }
 }

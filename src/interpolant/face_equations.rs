@@ -101,8 +101,7 @@ fn collocate(
 /// The factors of the face coefficients in `L p`: `L` of `6 λⱼ λₖ λₗ` is
 /// `12 (λⱼ wₖₗ + λₖ wⱼₗ + λₗ wⱼₖ)`.
 fn face_factors(weights: &[[f64; 4]; 4], at: &Barycentric4) -> [f64; 4] {
-    const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
-    FACES.map(|[j, k, l]| {
+    TetrahedronCubic::FACE_VERTICES.map(|[j, k, l]| {
         12.0 * (at[j] * weights[k][l] + at[k] * weights[j][l] + at[l] * weights[j][k])
     })
 }

@@ -144,7 +144,7 @@ fn push_centroid(
 ) {
     let frame = mesh.frame(triangle);
     let predicted = match predictor {
-        Predictor::Linear => TriangleCubic::linear(vertex_values(start)),
+        Predictor::Linear => TriangleCubic::linear(start.vertices()),
         Predictor::Quadratic => *start,
     };
     collocation.push(&Place {
@@ -168,9 +168,4 @@ fn correction(start: &TriangleCubic, weights: &[[f64; 3]; 3], g: f64) -> Option<
 /// mixed second derivatives at the centroid are all 2.
 fn centre_factor(weights: &[[f64; 3]; 3]) -> f64 {
     4.0 * (weights[0][1] + weights[1][2] + weights[2][0])
-}
-
-fn vertex_values(cubic: &TriangleCubic) -> [f64; 3] {
-    let [a, _, _, _, _, _, b, _, _, c] = cubic.coefficients;
-    [a, b, c]
 }

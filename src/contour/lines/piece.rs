@@ -46,7 +46,7 @@ impl Piece {
     /// Whether the cubic is zero at a corner inside the cell, and yet nothing crosses
     /// the border: there the contour touches the level and turns back.
     pub fn is_touched(&self) -> bool {
-        let values = [0, 1, 2].map(|corner| self.cubic.edge((corner + 2) % 3).coefficients[0]);
+        let values = self.cubic.vertices();
         let inside = |corner: &Barycentric| !corner.contains(&1.0);
         self.crossing_count() == 0
             && self.corners.iter().zip(values).any(|(corner, value)| value == 0.0 && inside(corner))

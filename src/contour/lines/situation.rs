@@ -257,11 +257,9 @@ mod tests {
     fn case_5_more_than_four_crossings_are_divided_in_four() {
         let wave = edge_with_roots([0.2, 0.5, 0.8]);
         let back = wave.map(|c| -c);
-        let down = [wave[3], -1.0, 1.0, -wave[3]];
         // edges 0 and 1 have three crossings each, and edge 2 has none
         let flat = [back[3], back[3], wave[0], wave[0]];
         let situation = decide([wave, back.map(|c| c * (wave[3] / back[0])), flat], 0.0);
-        let _ = down;
         assert_eq!(situation, Situation::Undecided(Division::Four));
     }
 }

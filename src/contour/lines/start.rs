@@ -7,11 +7,9 @@
 
 use super::crossing::{Crossing, Owner};
 use super::piece::{Cell, EdgeCrossing, EdgeCrossings, Piece};
-use crate::bernstein::{Sign, TriangleCubic};
+use crate::bernstein::{Sign, TriangleCubic, vertices};
 use crate::contour::crossings::crossings;
 use crate::mesh::{TriangleFrame, Vector};
-
-const VERTICES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// An edge of the mesh that lies wholly on the level, seen from one of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,13 +36,18 @@ pub fn flat_edges(cell: u32, points: [u32; 3], cubic: &TriangleCubic) -> Vec<Fla
         .map(|edge| {
             let (a, b) = (points[(edge + 1) % 3], points[(edge + 2) % 3]);
             // the cell is on the left of its own edges
-            let mut beside = [0.5; 3];
-            beside[edge] = 0.0;
-            let slope = cubic.without_zero_sides().value(&beside);
-            let low_to_high = (a < b) == (slope >= 0.0);
+            let low_to_high = (a < b) == (slope_beside(cubic, edge) >= 0.0);
             FlatEdge { low: a.min(b), high: a.max(b), in_flat_cell, cell, low_to_high }
         })
         .collect()
+}
+
+/// On which side of zero a cubic is beside the middle of an edge on which it is zero:
+/// positive above, negative below.
+pub fn slope_beside(cubic: &TriangleCubic, edge: usize) -> f64 {
+    let mut middle = [0.5; 3];
+    middle[edge] = 0.0;
+    cubic.without_zero_sides().value(&middle)
 }
 
 /// The whole cell as a piece. `whole` is its cubic less the level; `cell.cubic`
@@ -62,7 +65,7 @@ pub fn first_piece(cell: &mut Cell, whole: &TriangleCubic, points: [u32; 3]) -> 
     for edge in (0..3).filter(|&edge| flat[edge]) {
         edges[edge] = crossings_of_flat_edge(cell, edge, signs, points);
     }
-    Piece { corners: VERTICES, signs, cubic: *cell.cubic, edges, depth: 0 }
+    Piece { corners: vertices(), signs, cubic: *cell.cubic, edges, depth: 0 }
 }
 
 /// The crossings on an edge, found in the direction from its point of lower
@@ -121,8 +124,7 @@ fn corner_signs(
     flat: [bool; 3],
     edges: &[EdgeCrossings; 3],
 ) -> [Sign; 3] {
-    let of_value = |corner: usize| Sign::of(whole.edge((corner + 2) % 3).coefficients[0]);
-    let mut signs = [0, 1, 2].map(of_value);
+    let mut signs = whole.vertices().map(Sign::of);
     let count = flat.iter().filter(|&&flat| flat).count();
     let flip = |sign: Sign, edge: usize| if edges[edge].len() % 2 == 0 { sign } else { !sign };
     if count == 1 {
@@ -132,7 +134,7 @@ fn corner_signs(
         signs[next] = flip(signs[apex], last);
         signs[last] = flip(signs[apex], next);
     } else if count >= 2 {
-        signs = [0, 1, 2].map(|corner| Sign::of(divided.edge((corner + 2) % 3).coefficients[0]));
+        signs = divided.vertices().map(Sign::of);
         if let Some(edge) = (0..3).find(|&edge| !flat[edge]) {
             let (start, end) = ((edge + 1) % 3, (edge + 2) % 3);
             signs[start] = whole.edge(edge).roots().after_start();

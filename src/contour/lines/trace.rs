@@ -79,11 +79,11 @@ fn above_level(
     cubic: &TriangleCubic,
 ) -> Option<(TriangleCubic, f64)> {
     let Tracing { rounding, walls, level, .. } = tracing;
-    let value = |corner: usize| cubic.edge((corner + 2) % 3).coefficients[0];
-    let rounded = [0, 1, 2].map(|n| rounding.at(points[n], value(n)));
+    let values = cubic.vertices();
+    let rounded = [0, 1, 2].map(|n| rounding.at(points[n], values[n]));
     let near = [0, 1, 2].map(|n| {
         let is_given = walls.has_point(points[n]);
-        if is_given { rounding.at_wall(points[n], value(n)) } else { rounded[n] }
+        if is_given { rounding.at_wall(points[n], values[n]) } else { rounded[n] }
     });
     let wall = [0, 1, 2].map(|n| walls.has_edge(points[(n + 1) % 3], points[(n + 2) % 3]));
     let whole = TriangleCubic::from_coefficients(|exponents| {

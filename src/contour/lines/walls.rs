@@ -11,9 +11,10 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use super::rounding::Rounding;
+use super::start::slope_beside;
 use crate::bernstein::TriangleCubic;
 use crate::contour::CellRanges;
+use crate::contour::rounding::Rounding;
 use crate::interpolant::TriangleCubics;
 
 /// The edges of the boundary that are taken as lying on the level.
@@ -105,8 +106,8 @@ fn candidates(
 ) -> impl Iterator<Item = Candidate> {
     let points = interpolant.mesh().triangles()[cell];
     let cubic = interpolant.cubic(cell);
-    let value = |corner: usize| cubic.edge((corner + 2) % 3).coefficients[0];
-    let on_level = [0, 1, 2].map(|n| rounding.is_on_level(points[n], value(n)));
+    let values = cubic.vertices();
+    let on_level = [0, 1, 2].map(|n| rounding.is_on_level(points[n], values[n]));
     (0..3).filter(move |&edge| on_level[(edge + 1) % 3] && on_level[(edge + 2) % 3]).map(
         move |edge| {
             let (a, b) = (points[(edge + 1) % 3], points[(edge + 2) % 3]);
@@ -129,9 +130,7 @@ fn side(cubic: &TriangleCubic, edge: usize, level: f64) -> f64 {
     let on_edge_zero = TriangleCubic::from_coefficients(|exponents| {
         if exponents[edge] == 0 { 0.0 } else { cubic.coefficient(exponents) - level }
     });
-    let mut middle = [0.5; 3];
-    middle[edge] = 0.0;
-    on_edge_zero.without_zero_sides().value(&middle)
+    slope_beside(&on_edge_zero, edge)
 }
 
 /// An edge beside a cell that is left out (a ghost, or one without values) is

@@ -44,8 +44,8 @@ impl Cell {
         }
         let corners = interpolant.mesh().corners(number as usize);
         let cubic = interpolant.cubic(number as usize);
-        let value = |place: usize| cubic.edge([place, (place + 1) % 4]).coefficients[0];
-        let near = order.map(|place| rounding.at(points[place], value(place)));
+        let values = cubic.vertices();
+        let near = order.map(|place| rounding.at(points[place], values[place]));
         let above_level = TetrahedronCubic::from_coefficients(|exponents| {
             let mut here = [0; 4];
             for (place, exponent) in order.into_iter().zip(exponents) {
@@ -78,8 +78,7 @@ impl Cell {
 
     /// Whether a face, named by the corner opposite, lies on the level as a whole.
     pub fn is_flat(&self, face: usize) -> bool {
-        const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
-        self.cubic.face(FACES[face]).coefficients == [0.0; 10]
+        self.cubic.face(TetrahedronCubic::FACE_VERTICES[face]).coefficients == [0.0; 10]
     }
 }
 

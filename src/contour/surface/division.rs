@@ -21,7 +21,7 @@ use std::collections::HashMap;
 
 use super::cell::Cell;
 use super::piece::{EDGES, Piece};
-use crate::bernstein::{Barycentric4, SegmentCubic, Sign};
+use crate::bernstein::{Barycentric4, SegmentCubic, Sign, between};
 
 /// An edge of a piece, by the numbers of its vertices, the lower first.
 pub type EdgeName = [u32; 2];
@@ -135,8 +135,4 @@ fn with_vertex(piece: &Piece, replaced: usize, vertex: u32, at: Barycentric4, si
     part.right_handed = piece.right_handed == exchanges.is_multiple_of(2);
     part.depth = piece.depth + 1;
     part
-}
-
-fn between(a: &Barycentric4, b: &Barycentric4, t: f64) -> Barycentric4 {
-    [0, 1, 2, 3].map(|n| (1.0 - t) * a[n] + t * b[n])
 }

@@ -5,10 +5,11 @@
 //! too: what lies in a flat face is left out there and added here.
 
 use super::cell::Cell;
+use super::lattice;
 use super::owner::Owner;
 use super::patch::PatchPoint;
 use super::tessellation::Tessellation;
-use crate::bernstein::Sign;
+use crate::bernstein::{Sign, TetrahedronCubic};
 
 /// A face on the level, seen from one of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,7 +30,7 @@ pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellatio
     for (place, cell) in cells.iter().enumerate() {
         let in_flat_cell = cell.cubic.coefficients == [0.0; 20];
         for opposite in (0..4).filter(|&face| cell.is_flat(face)) {
-            let points = corners_of_face(opposite).map(|n| cell.points[n]);
+            let points = TetrahedronCubic::FACE_VERTICES[opposite].map(|n| cell.points[n]);
             faces.push(FlatFace { points, in_flat_cell, cell: place as u32, opposite });
         }
     }
@@ -48,40 +49,24 @@ pub fn are_in_flat_face(cell: &Cell, points: [&PatchPoint; 3]) -> bool {
     (0..4).any(|n| points.iter().all(|point| point.at[n] == 0.0) && cell.is_flat(n))
 }
 
-fn corners_of_face(opposite: usize) -> [usize; 3] {
-    [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][opposite]
-}
-
 fn add_face(cell: &Cell, face: &FlatFace, sides: u32, tessellation: &mut Tessellation) {
-    let corners = corners_of_face(face.opposite);
+    let corners = TetrahedronCubic::FACE_VERTICES[face.opposite];
     let first = tessellation.points.len() as u32;
-    for row in 0..=sides {
-        for place in 0..=row {
-            let weights =
-                [sides - row, row - place, place].map(|n| f64::from(n) / f64::from(sides));
-            tessellation.points.push(point(cell, corners, weights));
-            tessellation.rays.push([0.0; 4]);
-            tessellation.point_cells.push(face.cell);
-        }
+    for weights in lattice::points(sides) {
+        let weights = weights.map(|weight| f64::from(weight) / f64::from(sides));
+        tessellation.points.push(point(cell, corners, weights));
+        tessellation.rays.push([0.0; 4]);
+        tessellation.point_cells.push(face.cell);
     }
     // right-handed with the opposite corner first: its side is behind the face
     let even = face.opposite.is_multiple_of(2);
     let opposite_is_behind = cell.right_handed == even;
     let opposite_is_above = Sign::of(side_of_cell(cell, face.opposite)) == Sign::Above;
     let turned = opposite_is_behind != opposite_is_above;
-    let at = |row: u32, place: u32| first + row * (row + 1) / 2 + place;
-    let mut add = |[a, b, c]: [u32; 3]| {
-        tessellation.triangles.push(if turned { [a, c, b] } else { [a, b, c] });
-    };
-    for row in 0..sides {
-        for place in 0..=row {
-            let (left, right) = (at(row + 1, place), at(row + 1, place + 1));
-            add([at(row, place), left, right]);
-            if place < row {
-                add([at(row, place), right, at(row, place + 1)]);
-            }
-        }
-    }
+    let triangles = lattice::triangles(sides, first);
+    tessellation
+        .triangles
+        .extend(triangles.map(|[a, b, c]| if turned { [a, c, b] } else { [a, b, c] }));
 }
 
 /// A value that tells on which side of the level a cell lies, next to one of its faces.

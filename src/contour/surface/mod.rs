@@ -5,6 +5,7 @@ mod cell;
 mod contour_surface;
 mod division;
 mod flat_faces;
+mod lattice;
 mod owner;
 mod patch;
 mod piece;

@@ -12,7 +12,7 @@ use arrayvec::ArrayVec;
 use super::cell::Cell;
 use super::owner::Owner;
 use super::piece::Piece;
-use crate::bernstein::{Barycentric4, Sign};
+use crate::bernstein::{Barycentric4, Sign, between};
 use crate::contour::crossings::crossings;
 use crate::mesh::Vector;
 
@@ -68,7 +68,7 @@ impl Patch<'_> {
         } else {
             (self.owner_of_crossing(&from, &to, ray), t)
         };
-        let at = [0, 1, 2, 3].map(|n| (1.0 - t) * start[n] + t * end[n]);
+        let at = between(&start, &end, t);
         PatchPoint { owner, at, position: self.cell.position(&at) }
     }
 

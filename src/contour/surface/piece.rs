@@ -3,7 +3,9 @@
 use arrayvec::ArrayVec;
 
 use super::cell::Cell;
-use crate::bernstein::{Barycentric4, PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
+use crate::bernstein::{
+    Barycentric4, PatchCertificate, SegmentCubic, Sign, TetrahedronCubic, vertices,
+};
 use crate::contour::crossings::{MAX_CROSSINGS, crossings};
 
 /// A piece of a cell: at first the whole cell, later what divisions made of it.
@@ -26,21 +28,17 @@ pub struct Piece {
 /// The six edges of a tetrahedron, by its vertices in order.
 pub const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-const VERTICES: [Barycentric4; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-
 /// The error of de Casteljau's algorithm, as a part of the largest coefficient.
 const NOISE: f64 = 32.0 * f64::EPSILON;
 
 impl Piece {
     /// The whole of a cell; `place` is the cell's among those that are active.
     pub fn whole(cell: &Cell, place: u32) -> Self {
-        let value = |n: usize| cell.cubic.edge([n, (n + 1) % 4]).coefficients[0];
         Self {
             cell: place,
             vertices: cell.points,
-            at: VERTICES,
-            signs: [0, 1, 2, 3].map(|n| Sign::of(value(n))),
+            at: vertices(),
+            signs: cell.cubic.vertices().map(Sign::of),
             right_handed: cell.right_handed,
             depth: 0,
         }

@@ -11,13 +11,14 @@
 
 use std::collections::{HashMap, HashSet};
 
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::cell::Cell;
 use super::owner::Owner;
 use super::patch::{Patch, PatchPoint, Ray};
 use super::piece::Piece;
-use crate::bernstein::Barycentric4;
+use crate::bernstein::{Barycentric4, between};
 use crate::mesh::{TetrahedronFrame, Vector};
 
 /// A triangle of a patch.
@@ -103,7 +104,7 @@ impl Refinement<'_> {
         let frame = TetrahedronFrame::new(cell.corners);
         let is_far = |at: &Barycentric4| self.is_far(cell, &frame, at);
         let side_is_far = |[i, j]: [usize; 2]| {
-            [0.25, 0.5, 0.75].iter().any(|&t| is_far(&mix(&facet.at[i], &facet.at[j], t)))
+            [0.25, 0.5, 0.75].iter().any(|&t| is_far(&between(&facet.at[i], &facet.at[j], t)))
         };
         let mut wanted = SIDES.map(side_is_far);
         if wanted == [false; 3] {
@@ -160,12 +161,12 @@ impl Refinement<'_> {
     /// The middle of a side: its ray, and where that crosses the level.
     fn middle(&self, facet: &Facet, side: usize) -> (Ray, PatchPoint) {
         let [i, j] = SIDES[side];
-        let ray = mix(&facet.rays[i], &facet.rays[j], 0.5);
+        let ray = between(&facet.rays[i], &facet.rays[j], 0.5);
         let cell = &self.cells[facet.cell as usize];
         let point = match facet.piece {
             Some(piece) => Patch { cell, piece: &self.pieces[piece as usize] }.point(&ray),
             None => {
-                let at = mix(&facet.at[i], &facet.at[j], 0.5);
+                let at = between(&facet.at[i], &facet.at[j], 0.5);
                 PatchPoint { owner: Owner::Patch, at, position: cell.position(&at) }
             }
         };
@@ -175,17 +176,25 @@ impl Refinement<'_> {
     /// Divides all triangles with the given sides; returns which of the triangles are new.
     fn divide(&mut self, middles: &HashMap<[u32; 2], u32>) -> Vec<bool> {
         let facets = std::mem::take(&mut self.facets);
-        let parts: Vec<Vec<Facet>> =
-            facets.par_iter().map(|facet| self.parts(facet, middles)).collect();
-        let is_new = |parts: &Vec<Facet>| std::iter::repeat_n(parts.len() > 1, parts.len());
-        let new = parts.iter().flat_map(is_new).collect();
-        self.facets = parts.into_iter().flatten().collect();
-        new
+        let parts: Vec<(Facet, bool)> = facets
+            .par_iter()
+            .flat_map_iter(|facet| {
+                let parts = self.parts(facet, middles);
+                let is_new = parts.len() > 1;
+                parts.into_iter().map(move |part| (part, is_new))
+            })
+            .collect();
+        let (facets, is_new) = parts.into_iter().unzip();
+        self.facets = facets;
+        is_new
     }
 
     /// The parts of a triangle: one to four.
-    fn parts(&self, facet: &Facet, middles: &HashMap<[u32; 2], u32>) -> Vec<Facet> {
+    fn parts(&self, facet: &Facet, middles: &HashMap<[u32; 2], u32>) -> ArrayVec<Facet, 4> {
         let divided = [0, 1, 2].map(|side| middles.get(&name(facet, side)).copied());
+        if divided == [None; 3] {
+            return ArrayVec::from_iter([*facet]);
+        }
         // corners, then middles of the sides opposite them
         let corner = |n: usize| (facet.corners[n], facet.rays[n], facet.at[n]);
         let mut points = [0, 1, 2, 0, 0, 0].map(corner);
@@ -209,31 +218,31 @@ impl Refinement<'_> {
     }
 }
 
-/// The triangles into which one is split whose sides are divided or not: corners 0 to 2,
+/// The triangles into which one is split of whose sides one or more are divided: corners 0 to 2,
 /// middles 3 to 5 of the sides opposite. Quadrilaterals are cut by their shorter diagonal.
-fn split(divided: [bool; 3], length: impl Fn(usize, usize) -> f64) -> Vec<[usize; 3]> {
+fn split(divided: [bool; 3], length: impl Fn(usize, usize) -> f64) -> ArrayVec<[usize; 3], 4> {
+    let mut parts = ArrayVec::new();
     match divided.iter().filter(|divided| **divided).count() {
-        0 => vec![[0, 1, 2]],
         1 => {
             let a = divided.iter().position(|divided| *divided).unwrap_or(0);
             let (b, c, middle) = ((a + 1) % 3, (a + 2) % 3, a + 3);
-            vec![[a, b, middle], [a, middle, c]]
+            parts.extend([[a, b, middle], [a, middle, c]]);
         }
         2 => {
             // the corner between the two divided sides is cut off
             let a = divided.iter().position(|divided| !*divided).unwrap_or(0);
             let (b, c) = ((a + 1) % 3, (a + 2) % 3);
             let (of_b, of_c) = (b + 3, c + 3);
-            let mut parts = vec![[a, of_c, of_b]];
+            parts.push([a, of_c, of_b]);
             if length(b, of_b) <= length(of_c, c) {
                 parts.extend([[of_c, b, of_b], [b, c, of_b]]);
             } else {
                 parts.extend([[of_c, b, c], [of_c, c, of_b]]);
             }
-            parts
         }
-        _ => vec![[0, 5, 4], [1, 3, 5], [2, 4, 3], [3, 4, 5]],
+        _ => parts.extend([[0, 5, 4], [1, 3, 5], [2, 4, 3], [3, 4, 5]]),
     }
+    parts
 }
 
 /// The name of a side: its ends, ascending.
@@ -267,8 +276,4 @@ fn longest_side(cell: &Cell, facet: &Facet) -> usize {
         (corners[j] - corners[i]).norm_squared()
     };
     (0..3).max_by(|&a, &b| length(a).total_cmp(&length(b))).unwrap_or(0)
-}
-
-fn mix(a: &[f64; 4], b: &[f64; 4], t: f64) -> [f64; 4] {
-    [0, 1, 2, 3].map(|n| (1.0 - t) * a[n] + t * b[n])
 }

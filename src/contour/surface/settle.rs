@@ -1,5 +1,6 @@
 //! From active cells to pieces with one simple patch each.
 
+use rayon::iter::Either;
 use rayon::prelude::*;
 
 use super::cell::Cell;
@@ -82,14 +83,14 @@ fn is_undecided(known: &Known) -> bool {
 }
 
 /// The parts of a piece, or the piece itself if no edge of it is marked.
-fn divided(cells: &[Cell], marks: &Marks, known: Known) -> Vec<Known> {
+fn divided(cells: &[Cell], marks: &Marks, known: Known) -> impl Iterator<Item = Known> {
     if !marks.touch(&known.piece) {
-        return vec![known];
+        return Either::Left(std::iter::once(known));
     }
     let mut parts = Vec::new();
     let cell = &cells[known.piece.cell as usize];
     marks.divide(known.piece, cell, &mut parts);
-    parts.into_iter().map(|part| self::known(cells, part)).collect()
+    Either::Right(parts.into_iter().map(|part| self::known(cells, part)))
 }
 
 fn settled(cells: usize, pieces: Vec<Known>) -> Settled {

@@ -1,5 +1,6 @@
 //! Patches with a fixed number of points on each side: the thesis' *nSide*.
 
+use super::lattice;
 use super::patch::{Patch, Ray};
 use super::tessellation::{Tessellation, corners};
 
@@ -17,23 +18,10 @@ pub fn tessellate(patch: &Patch, points: u32, tessellation: &mut Tessellation) {
 fn three_sided(patch: &Patch, corners: [Ray; 3], sides: u32, tessellation: &mut Tessellation) {
     let [a, b, c] = corners;
     let first = tessellation.points.len() as u32;
-    for row in 0..=sides {
-        for place in 0..=row {
-            let terms = [(sides - row, a), (row - place, b), (place, c)];
-            tessellation.add_point(patch, &mean(&terms, sides));
-        }
+    for [of_a, of_b, of_c] in lattice::points(sides) {
+        tessellation.add_point(patch, &mean(&[(of_a, a), (of_b, b), (of_c, c)], sides));
     }
-    let at = |row: u32, place: u32| first + row * (row + 1) / 2 + place;
-    for row in 0..sides {
-        for place in 0..=row {
-            let upper = at(row, place);
-            let (left, right) = (at(row + 1, place), at(row + 1, place + 1));
-            tessellation.triangles.push([upper, left, right]);
-            if place < row {
-                tessellation.triangles.push([upper, right, at(row, place + 1)]);
-            }
-        }
-    }
+    tessellation.triangles.extend(lattice::triangles(sides, first));
 }
 
 fn four_sided(patch: &Patch, corners: [Ray; 4], sides: u32, tessellation: &mut Tessellation) {
@@ -57,7 +45,7 @@ fn four_sided(patch: &Patch, corners: [Ray; 4], sides: u32, tessellation: &mut T
 }
 
 /// Adds a quadrilateral, cut by its shorter diagonal.
-pub fn add_quadrilateral([a, b, c, d]: [u32; 4], tessellation: &mut Tessellation) {
+fn add_quadrilateral([a, b, c, d]: [u32; 4], tessellation: &mut Tessellation) {
     let position = |n: u32| tessellation.points[n as usize].position;
     let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
     if length(a, c) <= length(b, d) {

@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match &arguments[..] {
         [flag, encoding, input, output] if flag == "--rewrite" => {
-            rewrite(parse_encoding(encoding)?, input, output)
+            rewrite(encoding.parse()?, input, output)
         }
         [flag, output, inputs @ ..] if flag == "--list" => list(output, inputs),
         files => {
@@ -144,18 +144,6 @@ fn float(value: f64) -> Value {
     match value.is_finite() {
         true => json!(value),
         false => json!(value.to_string()),
-    }
-}
-
-fn parse_encoding(name: &str) -> Result<Encoding, String> {
-    match name {
-        "raw" => Ok(Encoding::Raw),
-        "zlib" => Ok(Encoding::Zlib),
-        "lz4" => Ok(Encoding::Lz4),
-        "lzma" => Ok(Encoding::Lzma),
-        "base64" => Ok(Encoding::Base64),
-        "ascii" => Ok(Encoding::Ascii),
-        _ => Err(format!("unknown encoding '{name}'")),
     }
 }
 

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let seconds = match &arguments[..] {
         ["read", file] => read(file)?,
-        ["write", encoding, input, output] => write(parse(encoding)?, input, output)?,
+        ["write", encoding, input, output] => write(encoding.parse()?, input, output)?,
         _ => return Err("read FILE, or write ENCODING INPUT OUTPUT".into()),
     };
     println!("{seconds}");
@@ -36,16 +36,4 @@ fn write(encoding: Encoding, input: &str, output: &str) -> Result<f64, Box<dyn E
     let start = Instant::now();
     write_vtu(output, &grid, encoding.into())?;
     Ok(start.elapsed().as_secs_f64())
-}
-
-fn parse(name: &str) -> Result<Encoding, String> {
-    match name {
-        "raw" => Ok(Encoding::Raw),
-        "zlib" => Ok(Encoding::Zlib),
-        "lz4" => Ok(Encoding::Lz4),
-        "lzma" => Ok(Encoding::Lzma),
-        "base64" => Ok(Encoding::Base64),
-        "ascii" => Ok(Encoding::Ascii),
-        _ => Err(format!("unknown encoding '{name}'")),
-    }
 }

@@ -12,10 +12,8 @@ use super::range_warning::range_warning;
 use super::report::Report;
 use super::solution::{Domain, Solution};
 use super::surface_output::SurfaceOutput;
-use crate::contour::lines::{ContourLines, Counts, Resolution, contour_lines_with_walls};
-use crate::contour::surface::{
-    ContourSurface, SurfaceCounts, contour_surface, points_per_side_within,
-};
+use crate::contour::lines::{ContourLines, contour_lines_with_walls};
+use crate::contour::surface::{ContourSurface, contour_surface, points_per_side_within};
 use crate::simplices::lagrange_grid;
 use crate::vtk::{PolyData, UnstructuredGrid};
 
@@ -99,15 +97,24 @@ pub fn contour(
     }
     let poly_data = output.poly_data();
     let (lines, surface) = (lines.unwrap_or_default(), surface.unwrap_or_default());
-    let report = report(&solution, in_triangles.as_ref(), in_tetrahedra.as_ref());
     let report = Report {
+        label: solution.chosen.label(),
+        gradient: gradient_origin(&solution),
+        triangles: solution.triangles.as_ref().map_or(0, Domain::count),
+        tetrahedra: solution.tetrahedra.as_ref().map_or(0, Domain::count),
+        left_out: solution.left_out.clone(),
+        ghosts: in_triangles.as_ref().map_or(0, |found| found.ghosts)
+            + in_tetrahedra.as_ref().map_or(0, |found| found.ghosts),
+        singular: in_triangles.as_ref().map_or(0, |found| found.singular)
+            + in_tetrahedra.as_ref().map_or(0, |found| found.singular),
+        pde_fit: in_triangles.as_ref().and_then(|found| found.pde_fit),
         range,
         levels,
         counts: lines.counts,
         surface_counts: surface.counts,
         resolution,
         fineness,
-        ..report
+        warnings: warnings(&solution, in_triangles.as_ref(), in_tetrahedra.as_ref()),
     };
     drop((in_triangles, in_tetrahedra));
     let triangles =
@@ -115,58 +122,39 @@ pub fn contour(
     Ok(Contoured { poly_data, lines, surface, triangles, report: report.with_warnings() })
 }
 
-/// What is known before contouring.
-fn report(
+/// Where the gradient came from: in solids, if there are any.
+fn gradient_origin(solution: &Solution) -> GradientOrigin {
+    let in_triangles = solution.triangles.as_ref().map(|domain| &domain.gradients.origin);
+    let in_tetrahedra = solution.tetrahedra.as_ref().map(|domain| &domain.gradients.origin);
+    in_tetrahedra.or(in_triangles).cloned().unwrap_or(GradientOrigin::Unused)
+}
+
+/// What people should know about the data, a line each.
+fn warnings(
     solution: &Solution,
     in_triangles: Option<&InTriangles>,
     in_tetrahedra: Option<&InTetrahedra>,
-) -> Report {
+) -> Vec<String> {
     let mut warnings = solution.pde_warnings().to_vec();
-    let (mut gradient, mut triangles, mut tetrahedra) = (GradientOrigin::Unused, 0, 0);
     if let Some(domain) = &solution.triangles {
-        warnings.extend(coincidence_warning(&domain.mesh));
-        warnings.extend(domain.gradients.warning.clone());
-        gradient = domain.gradients.origin.clone();
-        triangles = domain.mesh.triangles().len();
-        warnings.extend(in_triangles.and_then(|i| too_far(solution, domain, i.range)));
+        warnings.extend(of_domain(solution, domain, in_triangles.map(|found| found.range)));
     }
     if let Some(domain) = &solution.tetrahedra {
-        warnings.extend(coincidence_warning(&domain.mesh));
-        warnings.extend(domain.gradients.warning.clone());
-        gradient = domain.gradients.origin.clone();
-        tetrahedra = domain.mesh.tetrahedra().len();
-        warnings.extend(in_tetrahedra.and_then(|i| too_far(solution, domain, i.range)));
+        warnings.extend(of_domain(solution, domain, in_tetrahedra.map(|found| found.range)));
     }
     warnings.dedup();
-    let in_both = |of_triangles: fn(&InTriangles) -> usize,
-                   of_solids: fn(&InTetrahedra) -> usize| {
-        in_triangles.map_or(0, of_triangles) + in_tetrahedra.map_or(0, of_solids)
-    };
-    Report {
-        label: solution.chosen.label(),
-        gradient,
-        triangles,
-        tetrahedra,
-        left_out: solution.left_out.clone(),
-        ghosts: in_both(|i| i.ghosts, |i| i.ghosts),
-        singular: in_both(|i| i.singular, |i| i.singular),
-        pde_fit: in_triangles.and_then(|interpolated| interpolated.pde_fit),
-        range: [0.0; 2],
-        levels: Vec::new(),
-        counts: Counts::default(),
-        surface_counts: SurfaceCounts::default(),
-        resolution: Resolution { spacing: f64::INFINITY, tolerance: f64::INFINITY },
-        fineness: None,
-        warnings,
-    }
+    warnings
 }
 
-/// What people should know of an interpolant that goes far beyond the values.
-fn too_far<const CORNERS: usize>(
+/// What people should know about the cells of one dimension; `range` is that of the
+/// interpolant there.
+fn of_domain<const CORNERS: usize>(
     solution: &Solution,
     domain: &Domain<CORNERS>,
-    range: [f64; 2],
-) -> Option<String> {
+    range: Option<[f64; 2]>,
+) -> impl Iterator<Item = String> {
+    let (label, gradients) = (solution.chosen.label(), &domain.gradients);
     let values = solution.used_values(domain);
-    range_warning(&solution.chosen.label(), &domain.gradients.origin, values, range)
+    let too_far = range.and_then(|range| range_warning(&label, &gradients.origin, values, range));
+    [coincidence_warning(&domain.mesh), gradients.warning.clone(), too_far].into_iter().flatten()
 }

@@ -5,9 +5,7 @@ use super::error::FilterError;
 use super::options::{ContourOptions, InterpolantKind};
 use super::solution::{Domain, Solution};
 use crate::contour::CellRanges;
-use crate::interpolant::{
-    Equation, Linear, Pci, PdeFit, TetrahedronCubics, TriangleCubics, Tricubic,
-};
+use crate::interpolant::{Linear, Pci, PdeFit, TetrahedronCubics, TriangleCubics, Tricubic};
 
 /// An interpolant with its ranges, and what it could not do.
 pub struct Interpolated<C: ?Sized> {
@@ -41,11 +39,9 @@ impl Solution<'_> {
             (InterpolantKind::Linear, _) => Box::new(Linear::new(mesh, &self.values)),
             (InterpolantKind::Pci, None) => Box::new(Pci::new(mesh, field)),
             (InterpolantKind::Pci, Some(known)) => {
-                let (pde, arrays) = (&known.pde, &known.arrays);
-                let equation = Equation { pde, arrays, predictor: options.predictor };
-                let pci = Pci::with_pde(mesh, field, &equation);
+                let pci = Pci::with_pde(mesh, field, &known.equation(options.predictor));
                 singular = pci.singular();
-                pde_fit = Some(PdeFit::new(&pci, pde));
+                pde_fit = Some(PdeFit::new(&pci, &known.pde));
                 Box::new(pci)
             }
         };
@@ -64,8 +60,7 @@ impl Solution<'_> {
             (InterpolantKind::Linear, _) => Box::new(Linear::new(mesh, &self.values)),
             (InterpolantKind::Pci, None) => Box::new(Tricubic::new(mesh, field)),
             (InterpolantKind::Pci, Some(known)) => {
-                let (pde, arrays) = (&known.pde, &known.arrays);
-                let equation = Equation { pde, arrays, predictor: options.predictor };
+                let equation = known.equation(options.predictor);
                 let tricubic = Tricubic::with_pde(mesh, field, &equation);
                 singular = tricubic.singular();
                 Box::new(tricubic)

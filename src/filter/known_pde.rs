@@ -2,6 +2,7 @@
 
 use super::error::FilterError;
 use super::options::{ContourOptions, InterpolantKind};
+use crate::interpolant::{Equation, Predictor};
 use crate::pde::{Pde, PdeError, Problem, is_free_name};
 use crate::vtk::{DataArray, UnstructuredGrid};
 
@@ -38,6 +39,13 @@ impl KnownPde {
         let arrays = pde.used_arrays().iter().map(values).collect();
         let warnings = unused(&pde, options).collect();
         Ok(Some(Self { pde, arrays, warnings }))
+    }
+}
+
+impl KnownPde {
+    /// The PDE as interpolants use it.
+    pub fn equation(&self, predictor: Predictor) -> Equation<'_> {
+        Equation { pde: &self.pde, arrays: &self.arrays, predictor }
     }
 }
 

@@ -4,7 +4,7 @@ use super::error::FilterError;
 use super::gradients::{GradientOrigin, Gradients};
 use super::merge_points::merge_points;
 use super::options::ContourOptions;
-use super::solution::Solution;
+use super::solution::{Domain, Solution};
 use crate::simplices::{LeftOut, lagrange_grid};
 use crate::vtk::UnstructuredGrid;
 
@@ -48,9 +48,8 @@ pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Prev
     let of_tetrahedra = in_tetrahedra.map_or((0, 0), |i| (i.ghosts, i.ranges.unusable()));
     let label = solution.chosen.label();
     let Solution { triangles, tetrahedra, left_out, .. } = solution;
-    let count = |mesh: Option<usize>| mesh.unwrap_or(0);
-    let triangle_count = count(triangles.as_ref().map(|domain| domain.mesh.triangles().len()));
-    let tetrahedron_count = count(tetrahedra.as_ref().map(|domain| domain.mesh.tetrahedra().len()));
+    let triangle_count = triangles.as_ref().map_or(0, Domain::count);
+    let tetrahedron_count = tetrahedra.as_ref().map_or(0, Domain::count);
     let of_solids = tetrahedra.map(|domain| domain.gradients);
     let gradients = of_solids.or(triangles.map(|domain| domain.gradients));
     let Gradients { origin, warning, .. } = gradients.unwrap_or(Gradients::none());

@@ -91,6 +91,11 @@ impl<'a> Solution<'a> {
 }
 
 impl<const CORNERS: usize> Domain<CORNERS> {
+    /// How many simplices there are.
+    pub fn count(&self) -> usize {
+        self.mesh.simplices().len()
+    }
+
     fn new(
         grid: &UnstructuredGrid,
         part: Option<Part<CORNERS>>,

@@ -133,12 +133,12 @@ mod tests {
     #[test]
     fn entries_in_order() {
         let entries = "<DataSet timestep='2.5e-1' group='g' part='3' file='a b.vtu'/>\
-                       <DataSet file='/tmp/c.vtp' timestep=' -1 '/><DataSet file='../d.vtk'/>";
+                       <DataSet file='/elsewhere/c.vtp' timestep=' -1 '/><DataSet file='../d.vtk'/>";
         let file = read(entries).unwrap();
         let [first, second, third] = file.entries() else { panic!("{file:?}") };
         assert_eq!((first.time, first.part, &first.group[..]), (Some(0.25), 3, "g"));
         assert_eq!(first.file, Path::new("runs/a b.vtu"));
-        assert_eq!(*second, PvdEntry::new(-1.0, "/tmp/c.vtp"));
+        assert_eq!(*second, PvdEntry::new(-1.0, "/elsewhere/c.vtp"));
         assert_eq!((third.time, &third.file), (None, &PathBuf::from("runs/../d.vtk")));
         assert!(read("").unwrap().entries().is_empty());
     }

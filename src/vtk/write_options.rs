@@ -1,5 +1,7 @@
 //! How to write a file.
 
+use std::str::FromStr;
+
 use super::array_type::ArrayType;
 
 /// How the values of arrays are written down.
@@ -18,6 +20,23 @@ pub enum Encoding {
     Base64,
     /// Numbers as text, each exactly as it is: for people.
     Ascii,
+}
+
+impl FromStr for Encoding {
+    type Err = String;
+
+    /// The encoding of a name in small letters, such as `raw`.
+    fn from_str(name: &str) -> Result<Self, String> {
+        match name {
+            "raw" => Ok(Self::Raw),
+            "zlib" => Ok(Self::Zlib),
+            "lz4" => Ok(Self::Lz4),
+            "lzma" => Ok(Self::Lzma),
+            "base64" => Ok(Self::Base64),
+            "ascii" => Ok(Self::Ascii),
+            _ => Err(format!("unknown encoding '{name}'")),
+        }
+    }
 }
 
 /// The precision of the floats in a file.

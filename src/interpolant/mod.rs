@@ -3,6 +3,7 @@
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
+mod completion;
 mod discontinuous;
 mod equation;
 mod face_equations;

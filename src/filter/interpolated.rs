@@ -37,6 +37,9 @@ impl Solution<'_> {
         let (mut singular, mut pde_fit) = (0, None);
         let cubics: Box<dyn TriangleCubics> = match (options.interpolant, &self.pde) {
             (InterpolantKind::Linear, _) => Box::new(Linear::new(mesh, &self.values)),
+            (InterpolantKind::QuadraticPrecision, _) => {
+                Box::new(Pci::with_quadratic_precision(mesh, field))
+            }
             (InterpolantKind::Pci, None) => Box::new(Pci::new(mesh, field)),
             (InterpolantKind::Pci, Some(known)) => {
                 let pci = Pci::with_pde(mesh, field, &known.equation(options.predictor));
@@ -58,6 +61,9 @@ impl Solution<'_> {
         let mut singular = 0;
         let cubics: Box<dyn TetrahedronCubics> = match (options.interpolant, &self.pde) {
             (InterpolantKind::Linear, _) => Box::new(Linear::new(mesh, &self.values)),
+            (InterpolantKind::QuadraticPrecision, _) => {
+                Box::new(Tricubic::with_quadratic_precision(mesh, field))
+            }
             (InterpolantKind::Pci, None) => Box::new(Tricubic::new(mesh, field)),
             (InterpolantKind::Pci, Some(known)) => {
                 let equation = known.equation(options.predictor);

@@ -106,7 +106,7 @@ impl<const CORNERS: usize> Domain<CORNERS> {
         let Some(Part { mesh, parents }) = part else { return Ok(None) };
         let gradients = match options.interpolant {
             InterpolantKind::Linear => Gradients::none(),
-            InterpolantKind::Pci => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
+            _ => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
         };
         Ok(Some(Self { mesh, parents, gradients }))
     }

@@ -6,6 +6,7 @@
 mod completion;
 mod discontinuous;
 mod equation;
+mod face_completion;
 mod face_equations;
 mod hermite;
 mod least_squares;

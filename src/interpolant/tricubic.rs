@@ -6,14 +6,17 @@
 //! Here a face has one number, whatever the tetrahedron that asks for it, and the
 //! interpolant is continuous everywhere.
 //!
-//! Without a PDE that number is taken from the face's own data, such that quadratics
-//! are reproduced. With one, the numbers of all faces are chosen together to meet the
-//! equations of all tetrahedra as well as possible, by least squares.
+//! Without a PDE that number is the one with which the cubics at the face continue into
+//! their neighbours (`face_completion`), so that cubics are reproduced, or is taken from
+//! the face's own data, such that quadratics are. With a PDE, the numbers of all faces are
+//! chosen together to meet the equations of all tetrahedra as well as possible, by least
+//! squares.
 
 use rayon::prelude::*;
 
 use super::TetrahedronCubics;
 use super::equation::Equation;
+use super::face_completion::face_corrections;
 use super::face_equations::{FaceEquations, face_equations};
 use super::hermite::{hermite, quadratic_precision};
 use super::least_squares::least_squares;
@@ -24,13 +27,13 @@ use crate::pde::LANES;
 
 /// The tri-cubic interpolant of a field on a mesh of tetrahedra.
 ///
-/// Its error is of third order without a PDE and of fourth with one, on meshes whose
-/// tetrahedra keep their shape.
+/// Its error is of fourth order on meshes whose tetrahedra keep their shape, of third with
+/// quadratic precision.
 #[derive(Clone, Debug)]
 pub struct Tricubic<'a> {
     mesh: &'a TetrahedronMesh,
     field: Field<'a>,
-    /// With a PDE: the coefficients amid the faces of each tetrahedron.
+    /// The coefficients amid the faces of each tetrahedron; none for quadratic precision.
     faces: Option<Vec<[f64; 4]>>,
     singular: usize,
 }
@@ -39,11 +42,33 @@ pub struct Tricubic<'a> {
 pub(super) const CHUNK: usize = LANES;
 
 impl<'a> Tricubic<'a> {
-    /// The interpolant of values and gradients alone. It reproduces quadratics.
+    /// The interpolant of values and gradients alone, the face coefficients from the
+    /// neighbours.
+    ///
+    /// It reproduces cubics, but for tetrahedra without a neighbour, which reproduce
+    /// quadratics. Its error is of fourth order on meshes whose tetrahedra keep their
+    /// shape. It is linear in the field, the same for any number of threads, and up to
+    /// rounding for any order of tetrahedra and their corners.
+    ///
+    /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
+    /// tetrahedron are stored.
+    pub fn new(mesh: &'a TetrahedronMesh, field: Field<'a>) -> Self {
+        let faces = Faces::new(mesh);
+        let corrections = face_corrections(mesh, &field, &faces);
+        Self {
+            mesh,
+            field,
+            faces: Some(corrected(mesh, &field, &faces, &corrections)),
+            singular: 0,
+        }
+    }
+
+    /// The interpolant of values and gradients alone, each face by itself. It reproduces
+    /// quadratics, and its error is of third order.
     ///
     /// `field` has one value and one gradient for each point of `mesh`. Nothing is
     /// stored: all coefficients are read off the field.
-    pub fn new(mesh: &'a TetrahedronMesh, field: Field<'a>) -> Self {
+    pub fn with_quadratic_precision(mesh: &'a TetrahedronMesh, field: Field<'a>) -> Self {
         Self { mesh, field, faces: None, singular: 0 }
     }
 
@@ -63,15 +88,8 @@ impl<'a> Tricubic<'a> {
         let equations = equations.into_iter().map(Option::unwrap_or_default).collect();
         let numbered = Faces::new(mesh);
         let corrections = least_squares(&numbered, equations);
-        let corrected = |(tetrahedron, faces): (usize, &[u32; 4])| {
-            let start = quadratic_precision(mesh, &field, tetrahedron);
-            [0, 1, 2, 3].map(|opposite| {
-                let position = TetrahedronCubic::FACES[opposite];
-                start.coefficients[position] + corrections[faces[opposite] as usize]
-            })
-        };
-        let faces = numbered.of_tetrahedra().par_iter().enumerate().map(corrected).collect();
-        Self { mesh, field, faces: Some(faces), singular }
+        let faces = Some(corrected(mesh, &field, &numbered, &corrections));
+        Self { mesh, field, faces, singular }
     }
 
     /// How many tetrahedra could not use the PDE, because it says nothing of the face
@@ -80,6 +98,25 @@ impl<'a> Tricubic<'a> {
     pub fn singular(&self) -> usize {
         self.singular
     }
+}
+
+/// For each tetrahedron the coefficients amid its faces: those that reproduce quadratics,
+/// and what is to be added to that of each face.
+fn corrected(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    faces: &Faces,
+    corrections: &[f64],
+) -> Vec<[f64; 4]> {
+    let numbered = faces.of_tetrahedra().par_iter().enumerate();
+    let corrected = numbered.map(|(tetrahedron, faces)| {
+        let start = quadratic_precision(mesh, field, tetrahedron);
+        [0, 1, 2, 3].map(|opposite| {
+            let position = TetrahedronCubic::FACES[opposite];
+            start.coefficients[position] + corrections[faces[opposite] as usize]
+        })
+    });
+    corrected.collect()
 }
 
 impl TetrahedronCubics for Tricubic<'_> {

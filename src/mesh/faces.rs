@@ -65,6 +65,22 @@ impl Faces {
     pub fn sides(&self, face: usize) -> &[Side] {
         &self.sides[self.offsets[face]..self.offsets[face + 1]]
     }
+
+    /// The point beyond the face opposite a corner of a tetrahedron of `mesh`: the fourth of
+    /// the one other tetrahedron that has this face. None on the boundary, where three
+    /// tetrahedra or more have it, and beyond which the same tetrahedron lies once more.
+    pub fn point_beyond(
+        &self,
+        mesh: &TetrahedronMesh,
+        tetrahedron: usize,
+        opposite: usize,
+    ) -> Option<u32> {
+        let sides = self.sides(self.of_tetrahedra[tetrahedron][opposite] as usize);
+        let [first, second] = sides else { return None };
+        let other = if first.tetrahedron as usize == tetrahedron { second } else { first };
+        let point = mesh.tetrahedra()[other.tetrahedron as usize][other.opposite as usize];
+        (point != mesh.tetrahedra()[tetrahedron][opposite]).then_some(point)
+    }
 }
 
 #[cfg(test)]
@@ -84,5 +100,18 @@ mod tests {
         assert_eq!(faces.sides(shared as usize), sides);
         let alone = (0..7).filter(|&face| faces.sides(face).len() == 1).count();
         assert_eq!(alone, 6);
+        assert_eq!(faces.point_beyond(&mesh, 0, 0), Some(4));
+        assert_eq!(faces.point_beyond(&mesh, 1, 1), Some(0));
+        assert_eq!(faces.point_beyond(&mesh, 0, 1), None);
+    }
+
+    #[test]
+    fn nothing_is_beyond_where_three_meet_or_one_is_twice_there() {
+        let points = || vec![Vector::zeros(); 6];
+        let three = vec![[0, 1, 2, 3], [1, 2, 3, 4], [1, 2, 3, 5]];
+        for tetrahedra in [three, vec![[0, 1, 2, 3], [1, 2, 3, 0]]] {
+            let mesh = TetrahedronMesh::new(points(), tetrahedra).unwrap();
+            assert_eq!(Faces::new(&mesh).point_beyond(&mesh, 0, 0), None);
+        }
     }
 }

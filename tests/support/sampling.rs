@@ -1,6 +1,6 @@
 //! Errors of interpolants over points of the domain.
 
-use vtu2contour::interpolant::TriangleCubics;
+use vtu2contour::interpolant::{TetrahedronCubics, TriangleCubics};
 use vtu2contour::mesh::Vector;
 
 /// The mean and the greatest error at 100 by 100 points of the unit square, in the middle
@@ -31,4 +31,27 @@ pub fn errors_on_square(cubics: &dyn TriangleCubics, u: fn(&Vector) -> f64) -> [
     let errors: Vec<f64> = errors.into_iter().flatten().collect();
     let sum = errors.iter().sum::<f64>();
     [sum / errors.len() as f64, errors.into_iter().fold(0.0, f64::max)]
+}
+
+/// The mean error, weighted by volume, and the greatest, at four points of each tetrahedron.
+pub fn errors_in_tetrahedra(
+    cubics: &dyn TetrahedronCubics,
+    u: impl Fn(&Vector) -> f64,
+) -> [f64; 2] {
+    const PLACES: [[f64; 4]; 4] =
+        [[0.25; 4], [0.7, 0.1, 0.1, 0.1], [0.1, 0.2, 0.3, 0.4], [0.05, 0.3, 0.6, 0.05]];
+    let mesh = cubics.mesh();
+    let (mut sum, mut weights, mut greatest) = (0.0, 0.0, 0.0_f64);
+    for tetrahedron in 0..mesh.tetrahedra().len() {
+        let [a, b, c, d] = mesh.corners(tetrahedron);
+        let volume = (b - a).cross(&(c - a)).dot(&(d - a)).abs();
+        let cubic = cubics.cubic(tetrahedron);
+        for at in &PLACES {
+            let error = (cubic.value(at) - u(&mesh.position(tetrahedron, at))).abs();
+            sum += error * volume;
+            weights += volume;
+            greatest = greatest.max(error);
+        }
+    }
+    [sum / weights, greatest]
 }

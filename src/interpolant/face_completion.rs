@@ -10,7 +10,8 @@
 //! to `a`, which is known. It is linear in the coefficients amid the faces at `a`, with
 //! factors such as `2 μ_b μ_c` for the face `a b c`. So each neighbour gives three
 //! equations, and its value, the blossom at `(q, q, q)`, a fourth. That one matters only
-//! where the others leave something open, as in a corner with one neighbour.
+//! where the others leave something open. On the boundary the neighbours' neighbours
+//! serve as well; without them the corner of a cube is not determined.
 //!
 //! Both tetrahedra of a face then have a coefficient for it, and the face takes their
 //! mean, weighed by how well each is determined. So the interpolant is continuous. If the
@@ -27,7 +28,7 @@ use rayon::prelude::*;
 use super::hermite::quadratic_precision;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
-use crate::mesh::{Faces, TetrahedronFrame, TetrahedronMesh, Vector};
+use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
 
 /// What a tetrahedron says of each of its faces, by the opposite corner.
 #[derive(Clone, Copy, Debug, Default)]
@@ -78,15 +79,21 @@ fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: u
     }
     let start = quadratic_precision(mesh, field, tetrahedron);
     let mut equations = NormalEquations::default();
-    for opposite in 0..4 {
-        if let Some(point) = faces.point_beyond(mesh, tetrahedron, opposite) {
-            let point = point as usize;
-            let far = FarPoint {
-                position: mesh.points()[point],
-                value: field.values[point],
-                gradient: field.gradients[point],
-            };
-            far.add_to(&mut equations, &frame, &start, opposite);
+    let far = |side: Side| FarPoint::new(mesh, field, side.point(mesh));
+    let beyond = [0, 1, 2, 3].map(|opposite| faces.beyond(mesh, tetrahedron, opposite));
+    for (opposite, side) in beyond.into_iter().enumerate() {
+        if let Some(side) = side {
+            far(side).add_to(&mut equations, &frame, &start, Some(opposite));
+        }
+    }
+    if beyond.contains(&None) {
+        // on the boundary neighbours are few: theirs too
+        for neighbour in beyond.into_iter().flatten() {
+            for opposite in (0..4).filter(|&n| n != neighbour.opposite as usize) {
+                if let Some(side) = faces.beyond(mesh, neighbour.tetrahedron as usize, opposite) {
+                    far(side).add_to(&mut equations, &frame, &start, None);
+                }
+            }
         }
     }
     equations.solve()
@@ -100,14 +107,20 @@ struct FarPoint {
 }
 
 impl FarPoint {
-    /// Adds the equations by which the cubic `start` continues beyond the face opposite a
-    /// corner.
+    fn new(mesh: &TetrahedronMesh, field: &Field, point: u32) -> Self {
+        let point = point as usize;
+        let (value, gradient) = (field.values[point], field.gradients[point]);
+        Self { position: mesh.points()[point], value, gradient }
+    }
+
+    /// Adds the equations by which the cubic `start` continues to this point: for all
+    /// corners but the one opposite the face between, if only one is.
     fn add_to(
         &self,
         equations: &mut NormalEquations,
         frame: &TetrahedronFrame,
         start: &TetrahedronCubic,
-        opposite: usize,
+        opposite: Option<usize>,
     ) {
         let at = frame.barycentric(&self.position);
         let continued = start.barycentric_gradient(&at).map(|derivative| derivative / 3.0);
@@ -117,7 +130,7 @@ impl FarPoint {
         let mut continued_value = 0.0;
         for (end, corner) in frame.corners().iter().enumerate() {
             let factors = factors(&at, end);
-            if end != opposite {
+            if Some(end) != opposite {
                 let known = self.value + self.gradient.dot(&(corner - self.position)) / 3.0;
                 equations.add(weight, &factors, known - continued[end]);
             }

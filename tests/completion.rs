@@ -49,7 +49,7 @@ fn relative_errors(mesh: &TriangleMesh, field: Field, solution: Solution) -> [f6
     [free[0] / plain[0], free[1] / plain[1]]
 }
 
-fn square(seed: u64, h: f64) -> TriangleMesh {
+fn square(seed: u64, h: f64) -> TriangleMesh<'static> {
     Domain::rectangle("square", 1.0, 1.0).mesh(&mut Random(seed), h)
 }
 
@@ -171,7 +171,7 @@ fn orders_on_random_meshes() {
 }
 
 /// A plane mesh, turned and stretched in space.
-fn in_space(mesh: &TriangleMesh, angles: [f64; 3], stretch: f64) -> TriangleMesh {
+fn in_space(mesh: &TriangleMesh, angles: [f64; 3], stretch: f64) -> TriangleMesh<'static> {
     let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
     let moved = mesh.points().iter().map(|p| turn * Vector::new(p.x, stretch * p.y, 0.0));
     TriangleMesh::new(moved.collect(), mesh.triangles().to_vec()).unwrap()

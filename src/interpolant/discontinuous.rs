@@ -18,7 +18,7 @@ use crate::mesh::TetrahedronMesh;
 /// [`TetrahedronCubics`](super::TetrahedronCubics).
 #[derive(Clone, Debug)]
 pub struct DiscontinuousTricubic<'a> {
-    mesh: &'a TetrahedronMesh,
+    mesh: &'a TetrahedronMesh<'a>,
     field: Field<'a>,
     /// The coefficients amid the faces of each tetrahedron.
     faces: Vec<[f64; 4]>,
@@ -30,7 +30,7 @@ impl<'a> DiscontinuousTricubic<'a> {
     /// each tetrahedron.
     ///
     /// `field` has one value and one gradient for each point of `mesh`.
-    pub fn with_pde(mesh: &'a TetrahedronMesh, field: Field<'a>, equation: &Equation) -> Self {
+    pub fn with_pde(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, equation: &Equation) -> Self {
         let tetrahedra: Vec<usize> = (0..mesh.tetrahedra().len()).collect();
         let faces: Vec<([f64; 4], bool)> = tetrahedra
             .par_chunks(CHUNK)

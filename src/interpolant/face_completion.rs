@@ -172,9 +172,9 @@ impl NormalEquations {
     /// The solution; a face that no equation knows stays where it is.
     fn solve(mut self) -> Estimate {
         let known = [0, 1, 2, 3].map(|n| self.matrix[(n, n)] > 0.0);
-        for n in 0..4 {
-            self.matrix[(n, n)] =
-                if known[n] { self.matrix[(n, n)] * (1.0 + ROUNDING) } else { 1.0 };
+        for (n, &known) in known.iter().enumerate() {
+            let entry = &mut self.matrix[(n, n)];
+            *entry = if known { *entry * (1.0 + ROUNDING) } else { 1.0 };
         }
         let Some(factor) = Cholesky::new(self.matrix) else { return Estimate::default() };
         let solution = factor.solve(&self.right);

@@ -8,7 +8,7 @@ use super::simplex_mesh::TriangleMesh;
 /// a point, and nothing is sorted.
 #[derive(Clone, Debug)]
 pub struct Edges<'a> {
-    mesh: &'a TriangleMesh,
+    mesh: &'a TriangleMesh<'a>,
     /// Where the edges at each point begin, and the end of the last.
     offsets: Vec<u32>,
     sides: Vec<Side>,
@@ -25,7 +25,7 @@ struct Side {
 
 impl<'a> Edges<'a> {
     /// The edges of `mesh`.
-    pub fn new(mesh: &'a TriangleMesh) -> Self {
+    pub fn new(mesh: &'a TriangleMesh<'a>) -> Self {
         let edges = || {
             mesh.triangles().iter().enumerate().flat_map(|(triangle, points)| {
                 (0..3).map(move |corner| (triangle as u32, ends(points, corner)))

@@ -15,7 +15,7 @@ use support::sampling::{errors_in_tetrahedra, errors_on_square};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{Pci, TetrahedronCubics, TriangleCubics, Tricubic};
-use vtu2contour::mesh::{SimplexMesh, TriangleMesh, Vector};
+use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
 
 /// A solution: its value and its gradient.
 type Solution = (&'static str, fn(&Vector) -> f64, fn(&Vector) -> Vector);
@@ -297,6 +297,34 @@ fn cubics_are_reproduced_in_space() {
         println!("{greatest:.1e}");
         assert!(greatest < 1e-9);
     }
+}
+
+/// Of data that contradict each other, on meshes with boundaries.
+#[test]
+fn the_order_of_corners_changes_no_bit_in_space() {
+    let mut random = Random(9);
+    let mesh = random_cube(&mut random, 200);
+    let other = shuffled(&mut random, &mesh);
+    let values: Vec<f64> = mesh.points().iter().map(|_| random.uniform(-1.0, 1.0)).collect();
+    let gradients: Vec<Vector> =
+        values.iter().map(|_| Vector::repeat(random.uniform(-1.0, 1.0))).collect();
+    let field = Field { values: &values, gradients: &gradients };
+    let sorted = |mesh: &TetrahedronMesh| {
+        let tricubic = Tricubic::new(mesh, field);
+        let cells = mesh.tetrahedra().iter().enumerate();
+        let mut cells: Vec<([u32; 4], [u64; 20])> = cells
+            .map(|(tetrahedron, points)| {
+                let mut points = *points;
+                points.sort_unstable();
+                let mut bits = tricubic.cubic(tetrahedron).coefficients.map(f64::to_bits);
+                bits.sort_unstable();
+                (points, bits)
+            })
+            .collect();
+        cells.sort_unstable();
+        cells
+    };
+    assert!(sorted(&mesh) == sorted(&other));
 }
 
 /// Exact gradients: never worse, on random meshes far better. Recovered ones: on average.

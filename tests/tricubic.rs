@@ -207,7 +207,7 @@ fn where_the_pde_fails_it_is_left_out_and_counted() {
     let (values, gradients) = FIFTH.at_points(&mesh);
     let field = Field { values: &values, gradients: &gradients };
     let half = mesh.tetrahedra().len() / 2;
-    let plain = Tricubic::with_quadratic_precision(&mesh, field);
+    let plain = Tricubic::new(&mesh, field);
     // not a number on one half; no second derivatives on the other
     for text in ["uxx + uyy + uzz = log(x - 0.5)", "heaviside(x - 0.5)*(uxx + uyy + uzz) = 0"] {
         let pde = parse(text);
@@ -365,8 +365,7 @@ fn orders_of_accuracy() {
          {recovered:.2}"
     );
     assert!((1.9..2.2).contains(&linear));
-    assert!((2.9..3.2).contains(&plain));
-    assert!(completed > 3.5);
+    assert!(plain > 2.9 && completed > 3.85);
     assert!(with_pde > 3.85);
     assert!(recovered > 2.9);
 }

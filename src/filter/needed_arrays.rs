@@ -57,6 +57,7 @@ fn is(array: &ArrayInfo, role: AttributeKind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::filter::InterpolantKind;
     use crate::vtk::ArrayType;
 
     fn info(name: &str, components: usize, active: &[AttributeKind]) -> ArrayInfo {

@@ -22,10 +22,12 @@
 //!
 //! Source: ours.
 
+use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, Matrix4, Vector4};
 use rayon::prelude::*;
 
-use super::hermite::quadratic_precision;
+use super::constant::ConstantTriangles;
+use super::hermite::quadratic_precision_of;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
@@ -50,13 +52,22 @@ const VALUE: f64 = 0.01;
 /// numbers determine those of least size.
 const ROUNDING: f64 = 1e-13;
 
-/// For each face, what is to be added to the coefficient that reproduces quadratics.
+/// For each face, what is to be added to the coefficient that reproduces quadratics; zero
+/// where the face's data are constant.
 pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<f64> {
     let estimates: Vec<Estimate> = (0..mesh.tetrahedra().len())
         .into_par_iter()
         .map(|tetrahedron| estimate(mesh, field, faces, tetrahedron))
         .collect();
-    (0..faces.count()).into_par_iter().map(|face| mean_of_sides(faces, &estimates, face)).collect()
+    let constant = ConstantTriangles::new(mesh.points(), *field);
+    let mean = |face: usize| {
+        let side = faces.sides(face)[0];
+        let points = mesh.tetrahedra()[side.tetrahedron as usize];
+        let corners = TetrahedronCubic::FACE_VERTICES[side.opposite as usize];
+        let is_constant = constant.contain(&corners.map(|corner| points[corner]));
+        if is_constant { 0.0 } else { mean_of_sides(faces, &estimates, face) }
+    };
+    (0..faces.count()).into_par_iter().map(mean).collect()
 }
 
 /// The mean of what the tetrahedra at a face say; zero if none says anything.
@@ -72,31 +83,56 @@ fn mean_of_sides(faces: &Faces, estimates: &[Estimate], face: usize) -> f64 {
 }
 
 /// The corrections that continue a tetrahedron's cubic into its neighbours'.
+///
+/// Sums are taken in the order of points' numbers, so that no bit depends on that of corners.
 fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: usize) -> Estimate {
-    let frame = mesh.frame(tetrahedron);
+    let points = mesh.tetrahedra()[tetrahedron];
+    let mut order = [0, 1, 2, 3];
+    order.sort_unstable_by_key(|&corner| points[corner]);
+    let points = order.map(|corner| points[corner]);
+    let frame = TetrahedronFrame::new(points.map(|point| mesh.points()[point as usize]));
     if frame.is_degenerate() {
         return Estimate::default();
     }
-    let start = quadratic_precision(mesh, field, tetrahedron);
+    let start = quadratic_precision_of(&points, mesh.points(), field);
     let mut equations = NormalEquations::default();
-    let far = |side: Side| FarPoint::new(mesh, field, side.point(mesh));
-    let beyond = [0, 1, 2, 3].map(|opposite| faces.beyond(mesh, tetrahedron, opposite));
-    for (opposite, side) in beyond.into_iter().enumerate() {
+    let beyond = order.map(|corner| faces.beyond(mesh, tetrahedron, corner));
+    for (opposite, side) in beyond.iter().enumerate() {
         if let Some(side) = side {
-            far(side).add_to(&mut equations, &frame, &start, Some(opposite));
+            let far = FarPoint::new(mesh, field, side.point(mesh));
+            far.add_to(&mut equations, &frame, &start, Some(opposite));
         }
     }
     if beyond.contains(&None) {
-        // on the boundary neighbours are few: theirs too
-        for neighbour in beyond.into_iter().flatten() {
-            for opposite in (0..4).filter(|&n| n != neighbour.opposite as usize) {
-                if let Some(side) = faces.beyond(mesh, neighbour.tetrahedron as usize, opposite) {
-                    far(side).add_to(&mut equations, &frame, &start, None);
-                }
-            }
+        for point in further_points(mesh, faces, &beyond) {
+            FarPoint::new(mesh, field, point).add_to(&mut equations, &frame, &start, None);
         }
     }
-    equations.solve()
+    let sorted = equations.solve();
+    let mut estimate = Estimate::default();
+    for (place, corner) in order.into_iter().enumerate() {
+        estimate.corrections[corner] = sorted.corrections[place];
+        estimate.weights[corner] = sorted.weights[place];
+    }
+    estimate
+}
+
+/// The points beyond the other faces of the neighbours, ascending: on the boundary
+/// neighbours are few.
+fn further_points(
+    mesh: &TetrahedronMesh,
+    faces: &Faces,
+    beyond: &[Option<Side>; 4],
+) -> ArrayVec<u32, 12> {
+    let mut points = ArrayVec::new();
+    for neighbour in beyond.iter().flatten() {
+        for opposite in (0..4).filter(|&n| n != neighbour.opposite as usize) {
+            let side = faces.beyond(mesh, neighbour.tetrahedron as usize, opposite);
+            points.extend(side.map(|side| side.point(mesh)));
+        }
+    }
+    points.sort_unstable();
+    points
 }
 
 /// A point beyond a face, with its data.

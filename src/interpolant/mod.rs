@@ -4,6 +4,7 @@
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
 mod completion;
+mod constant;
 mod discontinuous;
 mod equation;
 mod face_completion;

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 
 use super::TriangleCubics;
 use super::completion::centre_correction;
+use super::constant::ConstantTriangles;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
@@ -65,10 +66,14 @@ impl<'a> Pci<'a> {
     /// `field` has one value and one gradient for each point of `mesh`.
     pub fn new(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
         let edges = Edges::new(mesh);
+        let constant = ConstantTriangles::new(mesh.points(), field);
         Self::by_triangle(mesh, field, |triangle| {
             let start = quadratic_precision(mesh, &field, triangle);
-            let correction = centre_correction(mesh, &field, &edges, triangle, &start);
-            start.coefficients[TriangleCubic::CENTRE] + correction
+            let centre = start.coefficients[TriangleCubic::CENTRE];
+            if constant.contain(&mesh.triangles()[triangle]) {
+                return centre;
+            }
+            centre + centre_correction(mesh, &field, &edges, triangle, &start)
         })
     }
 

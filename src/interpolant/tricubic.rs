@@ -55,15 +55,14 @@ impl<'a> Tricubic<'a> {
     ///
     /// It reproduces cubics, but for tetrahedra without a neighbour, which reproduce
     /// quadratics. Its error is of fourth order on meshes whose tetrahedra keep their
-    /// shape. It is linear in the field, the same for any number of threads, and up to
-    /// rounding for any order of tetrahedra and their corners.
+    /// shape. It is the same for any number of threads, and for any order of tetrahedra and
+    /// their corners.
     ///
     /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
     /// tetrahedron are stored.
     pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
         let faces = Faces::new(mesh);
-        let corrections = face_corrections(mesh, &field, &faces);
-        let coefficients = Some(corrected(mesh, &field, &faces, &corrections));
+        let coefficients = Some(completed(mesh, &field, &faces));
         let faces = FaceCoefficients { coefficients, singular: 0 };
         Self { mesh, field, faces: Cow::Owned(faces) }
     }
@@ -80,20 +79,22 @@ impl<'a> Tricubic<'a> {
     /// The interpolant that also satisfies a PDE, as well as one cubic a tetrahedron can
     /// without cracks.
     ///
-    /// It reproduces quadratics if they solve the PDE, and any cubic that solves it if
-    /// the PDE determines it (the Laplacian does) and `g` does not depend on the
-    /// solution. It is the same for any number of threads.
+    /// It starts at [`Tricubic::new`], so what the PDE does not determine comes from the
+    /// neighbours. It reproduces any cubic that solves the PDE, if `g` does not depend on
+    /// the solution, and is the same for any number of threads.
     pub fn with_pde(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, equation: &Equation) -> Self {
+        let numbered = Faces::new(mesh);
+        let without = completed(mesh, &field, &numbered);
+        let start = |tetrahedron: usize| hermite(mesh, &field, tetrahedron, without[tetrahedron]);
         let tetrahedra: Vec<usize> = (0..mesh.tetrahedra().len()).collect();
         let equations: Vec<Option<FaceEquations>> = tetrahedra
             .par_chunks(CHUNK)
-            .flat_map_iter(|chunk| face_equations(mesh, &field, equation, chunk))
+            .flat_map_iter(|chunk| face_equations(mesh, equation, chunk, start))
             .collect();
         let singular = equations.iter().filter(|equations| equations.is_none()).count();
         let equations = equations.into_iter().map(Option::unwrap_or_default).collect();
-        let numbered = Faces::new(mesh);
         let corrections = least_squares(&numbered, equations);
-        let coefficients = Some(corrected(mesh, &field, &numbered, &corrections));
+        let coefficients = Some(corrected(without, &numbered, &corrections));
         let faces = FaceCoefficients { coefficients, singular };
         Self { mesh, field, faces: Cow::Owned(faces) }
     }
@@ -115,29 +116,31 @@ impl<'a> Tricubic<'a> {
 
     /// How many tetrahedra could not use the PDE, because it says nothing of the face
     /// coefficients there or is not a finite number. Their faces follow the neighbours;
-    /// a face of such tetrahedra alone reproduces quadratics.
+    /// a face of such tetrahedra alone is as without a PDE.
     pub fn singular(&self) -> usize {
         self.faces.singular
     }
 }
 
-/// For each tetrahedron the coefficients amid its faces: those that reproduce quadratics,
-/// and what is to be added to that of each face.
-fn corrected(
-    mesh: &TetrahedronMesh,
-    field: &Field,
-    faces: &Faces,
-    corrections: &[f64],
-) -> Vec<[f64; 4]> {
-    let numbered = faces.of_tetrahedra().par_iter().enumerate();
-    let corrected = numbered.map(|(tetrahedron, faces)| {
+/// For each tetrahedron the coefficients amid its faces, from the neighbours.
+fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 4]> {
+    let coefficients = (0..mesh.tetrahedra().len()).into_par_iter().map(|tetrahedron| {
         let start = quadratic_precision(mesh, field, tetrahedron);
-        [0, 1, 2, 3].map(|opposite| {
-            let position = TetrahedronCubic::FACES[opposite];
-            start.coefficients[position] + corrections[faces[opposite] as usize]
-        })
+        TetrahedronCubic::FACES.map(|position| start.coefficients[position])
     });
-    corrected.collect()
+    corrected(coefficients.collect(), faces, &face_corrections(mesh, field, faces))
+}
+
+/// For each tetrahedron the coefficients amid its faces, and what is to be added to that of
+/// each face.
+fn corrected(mut coefficients: Vec<[f64; 4]>, faces: &Faces, corrections: &[f64]) -> Vec<[f64; 4]> {
+    let numbered = coefficients.par_iter_mut().zip(faces.of_tetrahedra());
+    numbered.for_each(|(coefficients, faces)| {
+        for (coefficient, face) in coefficients.iter_mut().zip(faces) {
+            *coefficient += corrections[*face as usize];
+        }
+    });
+    coefficients
 }
 
 impl TetrahedronCubics for Tricubic<'_> {

@@ -5,6 +5,7 @@
 //! (frames, neighbours, boundary edges) is computed from these when needed.
 
 mod boundary;
+mod edges;
 mod faces;
 mod frame;
 mod neighbours;
@@ -12,6 +13,7 @@ mod simplex_mesh;
 mod tetrahedron_frame;
 
 pub use boundary::boundary_edges;
+pub use edges::Edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;

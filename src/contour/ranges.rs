@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::extreme::{Extreme, recursive_extreme};
 use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 use crate::interpolant::{TetrahedronCubics, TriangleCubics};
+use crate::interruption::checkpoint;
 
 /// Certain bounds of the interpolant on each cell, computed once for all levels.
 #[derive(Clone, Debug)]
@@ -44,6 +45,10 @@ impl CellRanges {
     }
 
     fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f64; 2] + Sync + Send) -> Self {
+        let bounds = |cell| {
+            checkpoint();
+            bounds(cell)
+        };
         let ranges: Vec<[f64; 2]> = (0..cells).into_par_iter().map(bounds).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
         Self { ranges, unusable, excluded: 0 }
@@ -142,7 +147,10 @@ impl CellRanges {
             let bound = which.of(self.ranges[cell]);
             which.better(bound, start) != start
         });
-        let searched = promising.map(|cell| search(cell, which));
+        let searched = promising.map(|cell| {
+            checkpoint();
+            search(cell, which)
+        });
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
     }
 }

@@ -8,6 +8,7 @@ use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_w
 use super::hermite::quadratic_precision;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
+use crate::interruption::checkpoint;
 use crate::mesh::TetrahedronMesh;
 
 /// Four linear equations for what is to be added to the face coefficients of a
@@ -32,6 +33,7 @@ pub(super) fn face_equations(
     equation: &Equation,
     tetrahedra: &[usize],
 ) -> Vec<Option<FaceEquations>> {
+    checkpoint();
     let mut collocation = Collocation::new(equation);
     let starts: Vec<TetrahedronCubic> = tetrahedra
         .iter()

@@ -27,6 +27,7 @@ use rayon::prelude::*;
 use crate::contour::CellRanges;
 use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TriangleCubics;
+use crate::interruption::checkpoint;
 use line_builder::add_level;
 use trace::{Tracing, trace};
 use traces::Traces;
@@ -109,6 +110,7 @@ fn trace_cells(interpolant: &dyn TriangleCubics, tracing: &Tracing, cells: &[u32
     let chunks: Vec<Traces> = cells
         .par_chunks(CHUNK)
         .map(|chunk| {
+            checkpoint();
             let mut traces = Traces::default();
             for &cell in chunk {
                 let number = cell as usize;

@@ -23,6 +23,7 @@ use rayon::prelude::*;
 use crate::contour::CellRanges;
 use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TetrahedronCubics;
+use crate::interruption::checkpoint;
 use cell::Cell;
 use patch::Patch;
 use piece::Piece;
@@ -88,13 +89,17 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
     let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
     let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
-    let cell = |&number: &u32| Cell::new(interpolant, &rounding, level, number);
+    let cell = |&number: &u32| {
+        checkpoint();
+        Cell::new(interpolant, &rounding, level, number)
+    };
     active.par_iter().filter_map(cell).collect()
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {
     let chunks = pieces.par_chunks(CHUNK).enumerate();
     let tessellated = chunks.map(|(chunk, pieces)| {
+        checkpoint();
         let mut tessellation = Tessellation::default();
         for (place, piece) in pieces.iter().enumerate() {
             let number = (chunk * CHUNK + place) as u32;

@@ -116,13 +116,13 @@ def _numbers(array: Any) -> np.ndarray:
 def _types(grid: Any) -> np.ndarray:
     """The type of each cell."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkVersion
 
     if grid.GetNumberOfCells() == 0:
         return np.zeros(0, np.uint8)
-    try:
-        array = grid.GetCellTypes()
-    except TypeError:  # before VTK 9.6, that is something else
-        array = grid.GetCellTypesArray()
+    version = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion())
+    # before VTK 9.6, GetCellTypes is something else
+    array = grid.GetCellTypes() if version >= (9, 6) else grid.GetCellTypesArray()
     if array is not None and array.HasStandardMemoryLayout():
         return np.ascontiguousarray(vtk_to_numpy(array), np.uint8)
     # a type that all cells have may be stored once
@@ -174,7 +174,11 @@ def _component_names(array: Any) -> list[str]:
 
 def _roles(data: Any) -> list[tuple[str, str]]:
     """Roles and the names of the arrays that have them."""
-    arrays = [(role, data.GetAbstractAttribute(n)) for n, role in enumerate(ROLES)]
+    from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+
+    # older versions know fewer, and look beyond their end for others
+    known = ROLES[: vtkDataSetAttributes.NUM_ATTRIBUTES]
+    arrays = [(role, data.GetAbstractAttribute(n)) for n, role in enumerate(known)]
     return [(role, array.GetName() or "") for role, array in arrays if array is not None]
 
 

@@ -311,8 +311,30 @@ def has_cells(mesh):
 
 
 def state_of(mesh):
-    """What changes whenever a mesh or its data do: VTK's times are never the same twice."""
-    return [leaf.GetMTime() for leaf in leaves(mesh)]
+    """What changes whenever a mesh or its data do: VTK's times are never the same twice.
+
+    Those of a grid itself will not do: readers hand the same arrays over in a new grid whenever
+    they are asked.
+    """
+    return [(state_of_cells(leaf), state_of_data(leaf)) for leaf in leaves(mesh)]
+
+
+def state_of_cells(leaf):
+    """When the points and the cells were changed."""
+    if leaf.IsA("vtkUnstructuredGrid") and leaf.GetPoints() is not None:
+        return leaf.GetPoints().GetMTime(), leaf.GetCells().GetMTime()
+    return (leaf.GetMTime(),)
+
+
+def state_of_data(leaf):
+    """When each array was changed, and which are the active scalars."""
+    all_data = (leaf.GetPointData(), leaf.GetCellData(), leaf.GetFieldData())
+    arrays = [
+        data.GetAbstractArray(n) for data in all_data for n in range(data.GetNumberOfArrays())
+    ]
+    active = leaf.GetPointData().GetScalars()
+    times = [(array.GetName(), array.GetMTime()) for array in arrays]
+    return times, None if active is None else active.GetName()
 
 
 def processes():

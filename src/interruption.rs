@@ -73,7 +73,7 @@ mod tests {
         assert_eq!(whole, Ok(499_500));
         let endless = interruptible(|| {
             rayon::join(
-                || request(),
+                request,
                 || loop {
                     checkpoint();
                     std::thread::yield_now();

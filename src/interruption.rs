@@ -72,13 +72,12 @@ mod tests {
         });
         assert_eq!(whole, Ok(499_500));
         let endless = interruptible(|| {
-            rayon::join(
-                request,
-                || loop {
+            rayon::join(request, || {
+                loop {
                     checkpoint();
                     std::thread::yield_now();
-                },
-            )
+                }
+            })
         });
         assert_eq!(endless.map(|_: ((), ())| ()), Err(Interrupted));
         assert_eq!(

@@ -14,6 +14,7 @@ mod settle;
 mod surface_builder;
 mod tessellation;
 mod uniform;
+mod walls;
 
 pub use budget::points_per_side_within;
 pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
@@ -30,6 +31,7 @@ use piece::Piece;
 use settle::settle;
 use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
+use walls::Walls;
 
 /// How fine a surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,9 +91,10 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
     let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
     let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
+    let walls = Walls::new(interpolant, ranges, &rounding, &active);
     let cell = |&number: &u32| {
         checkpoint();
-        Cell::new(interpolant, &rounding, level, number)
+        Cell::new(interpolant, &rounding, &walls, number)
     };
     active.par_iter().filter_map(cell).collect()
 }

@@ -1,7 +1,7 @@
 """In pvpython with a display: ParaView's own Contour and DEI Contour side by side.
 
 Arguments: the plugin and the picture (.png). The function has an exact gradient and a surface
-of two sheets, on 3072 tetrahedra.
+of two sheets, on 2560 tetrahedra.
 """
 
 import sys

@@ -7,7 +7,8 @@
 //! [`interruptible`], through rayon too, which then starts no other part of the loop.
 //!
 //! There is one flag for all threads: an interruption ends all computations that run at the
-//! time, as Ctrl-C ends all of a program.
+//! time, as Ctrl-C ends all of a program. So whoever calls [`request`] runs all of them by
+//! [`interruptible`]: one that is not has nothing to catch the end.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -50,42 +51,5 @@ pub(crate) fn checkpoint() {
     if IS_REQUESTED.load(Ordering::Relaxed) && RUNNING.load(Ordering::Relaxed) > 0 {
         // this calls no panic hook: nothing is wrong
         resume_unwind(Box::new(Interrupted));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rayon::prelude::*;
-
-    /// One test, for there is one flag.
-    #[test]
-    fn computations_end_when_asked_and_not_before() {
-        let whole = interruptible(|| {
-            (0..1000_u32)
-                .into_par_iter()
-                .map(|n| {
-                    checkpoint();
-                    n
-                })
-                .sum::<u32>()
-        });
-        assert_eq!(whole, Ok(499_500));
-        let endless = interruptible(|| {
-            rayon::join(request, || {
-                loop {
-                    checkpoint();
-                    std::thread::yield_now();
-                }
-            })
-        });
-        assert_eq!(endless.map(|_: ((), ())| ()), Err(Interrupted));
-        assert_eq!(
-            interruptible(|| {
-                checkpoint();
-                1
-            }),
-            Ok(1)
-        );
     }
 }

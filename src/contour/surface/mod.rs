@@ -89,14 +89,17 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 }
 
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
-    let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
-    let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
+    let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+    let active = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
+    let rounding = Rounding::new(interpolant.mesh(), bounds, level, &active);
     let walls = Walls::new(interpolant, ranges, &rounding, &active);
     let cell = |&number: &u32| {
         checkpoint();
         Cell::new(interpolant, &rounding, &walls, number)
     };
-    active.par_iter().filter_map(cell).collect()
+    // of known length, so that it is not put together of parts, which takes twice the memory
+    let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
+    cells.into_iter().flatten().collect()
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {

@@ -52,8 +52,8 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
     let mut pieces: Vec<Known> = whole
         .map(|place| Piece::whole(&cells[place as usize], place))
         .map(|piece| known(cells, piece))
-        .filter(holds_something)
         .collect();
+    pieces.retain(holds_something);
     let mut next_vertex = points;
     loop {
         let marks = Marks::new(marked(cells, &pieces), next_vertex);

@@ -16,7 +16,7 @@
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
 //! | [`simplices`] | VTK's cells as triangles and tetrahedra |
-//! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours |
+//! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours, location |
 //! | [`svg`] | pictures |
 //! | [`vtk`] | the VTK file formats |
 //! | [`bernstein`] | polynomials on simplices, their bounds and roots |
@@ -53,6 +53,7 @@ pub mod contour;
 pub mod field;
 pub mod filter;
 pub mod interpolant;
+pub mod interruption;
 pub mod mesh;
 pub mod pde;
 pub mod simplices;

@@ -11,18 +11,22 @@ use rayon::prelude::*;
 use super::extreme::{Extreme, recursive_extreme};
 use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 use crate::interpolant::{TetrahedronCubics, TriangleCubics};
+use crate::interruption::checkpoint;
 
 /// Certain bounds of the interpolant on each cell, computed once for all levels.
+///
+/// They are kept in single precision, rounded outwards: still certain, and half as large,
+/// which matters beside a mesh. The few cells that they leave are asked again.
 #[derive(Clone, Debug)]
 pub struct CellRanges {
     /// Least and greatest coefficient; an empty range for an unusable cell.
-    ranges: Vec<[f64; 2]>,
+    ranges: Vec<[f32; 2]>,
     unusable: usize,
     excluded: usize,
 }
 
 /// The range of a cell that holds no value.
-const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+const EMPTY: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
 
 impl CellRanges {
     /// The ranges of all triangles of `interpolant`.
@@ -43,8 +47,12 @@ impl CellRanges {
         })
     }
 
-    fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f64; 2] + Sync + Send) -> Self {
-        let ranges: Vec<[f64; 2]> = (0..cells).into_par_iter().map(bounds).collect();
+    fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f32; 2] + Sync + Send) -> Self {
+        let bounds = |cell| {
+            checkpoint();
+            bounds(cell)
+        };
+        let ranges: Vec<[f32; 2]> = (0..cells).into_par_iter().map(bounds).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
         Self { ranges, unusable, excluded: 0 }
     }
@@ -78,24 +86,26 @@ impl CellRanges {
         self.unusable
     }
 
-    /// The range of a cell; empty (infinity to minus infinity) if it is unusable.
-    pub fn range(&self, cell: usize) -> [f64; 2] {
-        self.ranges[cell]
-    }
-
     /// The cells whose range holds `level`, give or take the `tolerance` of that
-    /// range, ascending.
-    pub fn cells_at(&self, level: f64, tolerance: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<u32> {
+    /// range, ascending; `bounds` are the least and the greatest coefficient of a cell. The
+    /// tolerance must not be less for a wider range.
+    pub fn cells_at(
+        &self,
+        level: f64,
+        tolerance: impl Fn([f64; 2]) -> f64 + Sync,
+        bounds: impl Fn(usize) -> [f64; 2] + Sync,
+    ) -> Vec<u32> {
         let holds = |range: [f64; 2]| {
             let [low, high] = range;
             // the exact comparison settles nearly all cells
             let outside = level < low || level > high;
-            range != EMPTY && (!outside || (low - level).max(level - high) <= tolerance(range))
+            !outside || (low - level).max(level - high) <= tolerance(range)
         };
+        let may_hold = |range: [f32; 2]| range != EMPTY && holds(range.map(f64::from));
         self.ranges
             .par_iter()
             .enumerate()
-            .filter(|(_, range)| holds(**range))
+            .filter(|(cell, range)| may_hold(**range) && holds(bounds(*cell)))
             .map(|(cell, _)| cell as u32)
             .collect()
     }
@@ -110,7 +120,9 @@ impl CellRanges {
             |cell: usize, which: Extreme| which.best(&interpolant.cubic(cell).vertices());
         let search =
             |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
-        self.attained_by(&at_vertices, &search)
+        let bounds =
+            |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
+        self.attained_by(&at_vertices, &bounds, &search)
     }
 
     /// The same as [`CellRanges::attained`], for tetrahedra.
@@ -120,37 +132,81 @@ impl CellRanges {
         let search = |cell: usize, which: Extreme| {
             recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
         };
-        self.attained_by(&at_vertices, &search)
+        let bounds =
+            |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
+        self.attained_by(&at_vertices, &bounds, &search)
     }
 
-    fn attained_by(&self, at_vertices: &Attained, search: &Attained) -> Option<[f64; 2]> {
-        let low = self.attained_extreme(Extreme::Minimum, at_vertices, search)?;
-        let high = self.attained_extreme(Extreme::Maximum, at_vertices, search)?;
+    fn attained_by(
+        &self,
+        at_vertices: &OfCell,
+        bounds: &OfCell,
+        search: &OfCell,
+    ) -> Option<[f64; 2]> {
+        let low = self.attained_extreme(Extreme::Minimum, at_vertices, bounds, search)?;
+        let high = self.attained_extreme(Extreme::Maximum, at_vertices, bounds, search)?;
         Some([low, high])
     }
 
     fn attained_extreme(
         &self,
         which: Extreme,
-        at_vertices: &Attained,
-        search: &Attained,
+        at_vertices: &OfCell,
+        bounds: &OfCell,
+        search: &OfCell,
     ) -> Option<f64> {
         let usable = || (0..self.ranges.len()).into_par_iter().filter(|&c| self.ranges[c] != EMPTY);
         let start =
             usable().map(|cell| at_vertices(cell, which)).reduce_with(|a, b| which.better(a, b))?;
+        let promises = |bound: f64| which.better(bound, start) != start;
         let promising = usable().filter(|&cell| {
-            let bound = which.of(self.ranges[cell]);
-            which.better(bound, start) != start
+            let wide = which.of(self.ranges[cell].map(f64::from));
+            promises(wide) && promises(bounds(cell, which))
         });
-        let searched = promising.map(|cell| search(cell, which));
+        let searched = promising.map(|cell| {
+            checkpoint();
+            search(cell, which)
+        });
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
     }
 }
 
-/// An extreme value of a cell.
-type Attained<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
+/// An extreme value of a cell, or a bound of it.
+type OfCell<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
 
 /// The bounds of a cubic; empty if a coefficient is not finite.
-fn usable(coefficients: &[f64], (low, high): (f64, f64)) -> [f64; 2] {
-    if coefficients.iter().all(|c| c.is_finite()) { [low, high] } else { EMPTY }
+fn usable(coefficients: &[f64], (low, high): (f64, f64)) -> [f32; 2] {
+    let is_usable = coefficients.iter().all(|c| c.is_finite());
+    if is_usable { [rounded_down(low), -rounded_down(-high)] } else { EMPTY }
+}
+
+/// The greatest number of single precision that is not above a finite one.
+fn rounded_down(value: f64) -> f32 {
+    let nearest = value as f32;
+    if f64::from(nearest) > value { nearest.next_down() } else { nearest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn bounds_beyond_single_precision_hold_all_the_same() {
+        let [low, high] = usable(&[1e300, -1e300], (-1e300, 1e300));
+        assert_eq!([low, high], [f32::NEG_INFINITY, f32::INFINITY]);
+        assert_eq!(usable(&[1e300], (1e300, 1e300)), [f32::MAX, f32::INFINITY]);
+        assert_eq!(usable(&[f64::NAN], (0.0, 1.0)), EMPTY);
+    }
+
+    proptest! {
+        #[test]
+        fn rounding_outwards_is_certain_and_tight(low in any::<f64>(), width in 0.0..1e10_f64) {
+            prop_assume!(low.is_finite() && (low + width).is_finite());
+            let [l, h] = usable(&[low, low + width], (low, low + width)).map(f64::from);
+            prop_assert!(l <= low && low + width <= h);
+            let largest = low.abs().max((low + width).abs());
+            prop_assert!(largest > 1e38 || low - l <= 1e-6 * largest.max(1e-38));
+        }
+    }
 }

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use crate::contour::CellRanges;
 use crate::mesh::SimplexMesh;
 
 /// How near to a level the coefficients around each mesh point count as on it.
@@ -32,16 +31,17 @@ const OF_SPREAD: f64 = 64.0 * f64::EPSILON;
 const OF_GIVEN: f64 = 1e-6;
 
 impl Rounding {
-    /// The rounding at the points of the cells that are active at a level.
+    /// The rounding at the points of the cells that are active at a level; `bounds` are the
+    /// least and the greatest coefficient of a cell.
     pub fn new<const CORNERS: usize>(
         mesh: &SimplexMesh<CORNERS>,
-        ranges: &CellRanges,
+        bounds: impl Fn(usize) -> [f64; 2],
         level: f64,
         cells: &[u32],
     ) -> Self {
         let mut spreads = HashMap::with_capacity(2 * cells.len());
         for &cell in cells {
-            let [low, high] = ranges.range(cell as usize);
+            let [low, high] = bounds(cell as usize);
             for point in mesh.simplices()[cell as usize] {
                 let least = spreads.entry(point).or_insert(f64::INFINITY);
                 *least = least.min(high - low);

@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use super::patch::{MAX_RINGS, Patch};
 use super::patch_frame::PatchFrame;
 use super::polynomial_fit::{PolynomialFit, Samples};
+use crate::interruption::checkpoint;
 use crate::mesh::{PointNeighbours, SimplexMesh, Vector, plane_axes};
 
 /// The degree of the polynomials that are fitted.
@@ -55,6 +56,7 @@ pub fn recover_gradients<const CORNERS: usize>(
     (0..mesh.points().len() as u32)
         .into_par_iter()
         .map_init(Patch::default, |patch, point| {
+            checkpoint();
             if !values[point as usize].is_finite() {
                 return Vector::repeat(f64::NAN);
             }

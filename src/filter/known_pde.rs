@@ -43,6 +43,33 @@ impl KnownPde {
 }
 
 impl KnownPde {
+    /// The PDE of the options, for a solution of arrays. Its names may be parameters and the
+    /// given arrays, of one value for each of the `points`.
+    ///
+    /// # Errors
+    /// If the PDE cannot be read, an array is not of that length, or there is a PDE for an
+    /// interpolant that uses none.
+    pub fn of_arrays(
+        options: &ContourOptions,
+        points: usize,
+        arrays: Vec<(String, Vec<f64>)>,
+    ) -> Result<Option<Self>, FilterError> {
+        let Some(text) = &options.pde else { return Ok(None) };
+        if options.interpolant != InterpolantKind::Pci {
+            return Err(FilterError::UnusedPde);
+        }
+        if let Some((_, values)) = arrays.iter().find(|(_, values)| values.len() != points) {
+            let (what, count) = ("values of an array in the PDE", values.len());
+            return Err(FilterError::NotOneAPoint { what, count, points });
+        }
+        let (names, mut arrays): (Vec<String>, Vec<Vec<f64>>) = arrays.into_iter().unzip();
+        let pde = Pde::parse(text, &options.parameters, &names)?;
+        let used = pde.used_arrays().iter().map(|&place| std::mem::take(&mut arrays[place]));
+        let arrays = used.collect();
+        let warnings = unused(&pde, options).collect();
+        Ok(Some(Self { pde, arrays, warnings }))
+    }
+
     /// The PDE as interpolants use it.
     pub fn equation(&self, predictor: Predictor) -> Equation<'_> {
         Equation { pde: &self.pde, arrays: &self.arrays, predictor }

@@ -56,6 +56,10 @@ pub struct ContourOptions {
     pub points_per_side: Option<u32>,
     /// The greatest number of triangles: as many points on each side as that allows.
     pub triangles: Option<usize>,
+    /// The size of what is contoured, a length that default tolerances are parts of; the
+    /// diagonal of the grid's own cells if not given. Pieces of a whole need that of the
+    /// whole: where they meet, they have to be equally fine.
+    pub size: Option<f64>,
     /// The interpolant.
     pub interpolant: InterpolantKind,
     /// The PDE as text, see [`crate::pde`].
@@ -102,6 +106,7 @@ impl Default for ContourOptions {
             tolerance: None,
             points_per_side: None,
             triangles: None,
+            size: None,
             interpolant: InterpolantKind::default(),
             pde: None,
             parameters: Vec::new(),
@@ -165,6 +170,16 @@ impl ContourOptions {
             (None, None, Some(triangles)) => Ok(Fineness::PointsPerSide(within(triangles))),
             (None, None, None) => Ok(Fineness::Tolerance(DEFAULT_SURFACE_TOLERANCE * diagonal)),
             _ => Err(FilterError::TwoFinenesses),
+        }
+    }
+
+    /// What the output holds, for arrays.
+    pub fn bare_output(&self) -> OutputOptions {
+        OutputOptions {
+            segments: self.segments,
+            single: self.single.unwrap_or(false),
+            gradients: self.gradients,
+            normals: self.normals,
         }
     }
 

@@ -6,6 +6,7 @@
 
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
+use crate::interruption::checkpoint;
 use crate::mesh::TetrahedronMesh;
 
 /// Four linear equations for what is to be added to the face coefficients of a
@@ -31,6 +32,7 @@ pub(super) fn face_equations(
     tetrahedra: &[usize],
     start: impl Fn(usize) -> TetrahedronCubic,
 ) -> Vec<Option<FaceEquations>> {
+    checkpoint();
     let mut collocation = Collocation::new(equation);
     let starts: Vec<TetrahedronCubic> = tetrahedra
         .iter()

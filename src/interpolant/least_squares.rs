@@ -13,6 +13,7 @@
 use rayon::prelude::*;
 
 use super::face_equations::FaceEquations;
+use crate::interruption::checkpoint;
 use crate::mesh::Faces;
 
 /// The steps end when one lowers the sum of squares by less than this fraction of it.
@@ -38,6 +39,7 @@ pub(super) fn least_squares(faces: &Faces, mut equations: Vec<FaceEquations>) ->
     let mut direction = scaled(&descent, &inverse_diagonal);
     let mut slope = dot(&descent, &direction);
     for _ in 0..MAX_STEPS {
+        checkpoint();
         let curvature = curvature(faces, &equations, &direction);
         let length = slope / curvature;
         // false also where there is nothing to gain, or numbers are not finite

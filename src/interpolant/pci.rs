@@ -25,6 +25,7 @@ use super::constant::ConstantTriangles;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
+use crate::interruption::checkpoint;
 use crate::mesh::{Edges, TriangleMesh};
 use crate::pde::LANES;
 
@@ -166,6 +167,7 @@ fn collocate(
     equation: &Equation,
     triangles: &[usize],
 ) -> Vec<(f64, bool)> {
+    checkpoint();
     let mut collocation = Collocation::new(equation);
     let starts: Vec<TriangleCubic> = triangles
         .iter()

@@ -5,10 +5,12 @@
 //! (frames, neighbours, boundary edges) is computed from these when needed.
 
 mod boundary;
+mod closest_point;
 mod edges;
 mod faces;
 mod frame;
 mod neighbours;
+mod point_locator;
 mod simplex_mesh;
 mod tetrahedron_frame;
 
@@ -17,6 +19,7 @@ pub use edges::Edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;
+pub use point_locator::{Location, PointLocator};
 pub use simplex_mesh::{MeshError, SimplexMesh, TetrahedronMesh, TriangleMesh};
 pub use tetrahedron_frame::TetrahedronFrame;
 

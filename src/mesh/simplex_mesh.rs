@@ -98,12 +98,12 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     /// simplices. Points that no simplex uses, and those that are not finite, do not
     /// count.
     pub fn diagonal(&self) -> f64 {
-        let corners = self.simplices.iter().flatten().map(|&point| self.points[point as usize]);
-        let mut finite = corners.filter(|point| point.iter().all(|x| x.is_finite()));
-        let Some(first) = finite.next() else { return 0.0 };
-        let (low, high) =
-            finite.fold((first, first), |(low, high), point| (low.inf(&point), high.sup(&point)));
-        (high - low).norm()
+        let corners = self.simplices.par_iter().flatten_iter();
+        let points = corners.map(|&point| self.points[point as usize]);
+        let finite = points.filter(|point| point.iter().all(|x| x.is_finite()));
+        let boxes = finite.map(|point| (point, point));
+        let whole = boxes.reduce_with(|(low, high), (l, h)| (low.inf(&l), high.sup(&h)));
+        whole.map_or(0.0, |(low, high)| (high - low).norm())
     }
 }
 

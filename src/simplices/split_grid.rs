@@ -6,6 +6,7 @@ use super::cell_type::CellCounts;
 use super::left_out::LeftOut;
 use super::orientation::Lie;
 use super::splitter::Splitter;
+use crate::interruption::checkpoint;
 use crate::mesh::Vector;
 use crate::vtk::{ArrayError, DataArray, UnstructuredGrid};
 
@@ -71,6 +72,7 @@ impl SplitGrid {
         let mut split = Self { points, ..Self::default() };
         let mut splitter = Splitter::new(grid, &split.points);
         for (cell, (points, &cell_type)) in grid.cells.iter().zip(&grid.types).enumerate() {
+            checkpoint();
             let (triangles, tetrahedra) = (&mut split.triangles, &mut split.tetrahedra);
             let (flat, solid) = (&mut triangles.simplices, &mut tetrahedra.simplices);
             match splitter.cut(cell, points, flat, solid) {

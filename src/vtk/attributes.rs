@@ -37,6 +37,11 @@ impl AttributeKind {
         (Self::ProcessIds, "ProcessIds"),
     ];
 
+    /// The role of that name in a file, such as `Scalars`.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(_, known)| *known == name).map(|(kind, _)| *kind)
+    }
+
     /// The name in a file, such as `Scalars`.
     pub fn name(self) -> &'static str {
         let found = Self::NAMES.iter().find(|(kind, _)| *kind == self);

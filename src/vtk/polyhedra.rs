@@ -19,7 +19,7 @@ impl Polyhedra {
     ///
     /// # Errors
     /// The stream and the ends contradict each other.
-    pub(super) fn push_stream(&mut self, stream: &[i64], ends: &[i64]) -> Result<(), ArrayError> {
+    pub fn push_stream(&mut self, stream: &[i64], ends: &[i64]) -> Result<(), ArrayError> {
         // Counted first: each number of the stream could be a face of its own.
         let cells = ends.iter().filter(|end| **end >= 0).count();
         let (faces, points) = count(stream, cells);

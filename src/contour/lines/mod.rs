@@ -27,6 +27,7 @@ use rayon::prelude::*;
 use crate::contour::CellRanges;
 use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TriangleCubics;
+use crate::interruption::checkpoint;
 use line_builder::add_level;
 use trace::{Tracing, trace};
 use traces::Traces;
@@ -88,8 +89,9 @@ fn lines_between(
     lines.counts.unusable = ranges.unusable();
     let resolution = resolution.no_finer_than(interpolant.mesh());
     for (place, &level) in levels.iter().enumerate() {
-        let cells = ranges.cells_at(level, |range| rounding::of_range(range, level));
-        let rounding = Rounding::new(interpolant.mesh(), ranges, level, &cells);
+        let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+        let cells = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
+        let rounding = Rounding::new(interpolant.mesh(), bounds, level, &cells);
         let walls = walls(&rounding, &cells);
         let tracing = Tracing { level, rounding: &rounding, walls: &walls, method, resolution };
         lines.counts.active += cells.len();
@@ -109,6 +111,7 @@ fn trace_cells(interpolant: &dyn TriangleCubics, tracing: &Tracing, cells: &[u32
     let chunks: Vec<Traces> = cells
         .par_chunks(CHUNK)
         .map(|chunk| {
+            checkpoint();
             let mut traces = Traces::default();
             for &cell in chunk {
                 let number = cell as usize;

@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use crate::contour::CellRanges;
 use crate::contour::rounding::{self, Rounding};
 use crate::interpolant::TetrahedronCubics;
+use crate::interruption::checkpoint;
 use cell::Cell;
 use patch::Patch;
 use piece::Piece;
@@ -88,16 +89,23 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 }
 
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
-    let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
-    let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
+    let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+    let active = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
+    let rounding = Rounding::new(interpolant.mesh(), bounds, level, &active);
     let walls = Walls::new(interpolant, ranges, &rounding, &active);
-    let cell = |&number: &u32| Cell::new(interpolant, &rounding, &walls, number);
-    active.par_iter().filter_map(cell).collect()
+    let cell = |&number: &u32| {
+        checkpoint();
+        Cell::new(interpolant, &rounding, &walls, number)
+    };
+    // of known length, so that it is not put together of parts, which takes twice the memory
+    let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
+    cells.into_iter().flatten().collect()
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {
     let chunks = pieces.par_chunks(CHUNK).enumerate();
     let tessellated = chunks.map(|(chunk, pieces)| {
+        checkpoint();
         let mut tessellation = Tessellation::default();
         for (place, piece) in pieces.iter().enumerate() {
             let number = (chunk * CHUNK + place) as u32;

@@ -20,6 +20,7 @@ use super::owner::Owner;
 use super::patch::{Patch, PatchPoint, Ray};
 use super::piece::Piece;
 use crate::bernstein::{Barycentric4, between};
+use crate::interruption::checkpoint;
 use crate::mesh::{TetrahedronFrame, Vector};
 
 /// A triangle of a patch.
@@ -111,6 +112,7 @@ impl Refinement<'_> {
                 .facets
                 .par_iter()
                 .zip(&is_new)
+                .inspect(|_| checkpoint())
                 .map(|(facet, new)| if *new { self.wish(facet) } else { Wish::Nothing })
                 .collect();
             let middles = self.middles(&wishes);

@@ -7,6 +7,7 @@ use super::cell::Cell;
 use super::division::{Marks, mark};
 use super::piece::Piece;
 use crate::bernstein::PatchCertificate;
+use crate::interruption::checkpoint;
 
 /// The pieces that hold a patch.
 #[derive(Debug, Default)]
@@ -51,8 +52,8 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
     let mut pieces: Vec<Known> = whole
         .map(|place| Piece::whole(&cells[place as usize], place))
         .map(|piece| known(cells, piece))
-        .filter(holds_something)
         .collect();
+    pieces.retain(holds_something);
     let mut next_vertex = points;
     loop {
         let marks = Marks::new(marked(cells, &pieces), next_vertex);
@@ -62,6 +63,7 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
         next_vertex += marks.len() as u32;
         pieces = pieces
             .into_par_iter()
+            .inspect(|_| checkpoint())
             .flat_map_iter(|known| divided(cells, &marks, known))
             .filter(holds_something)
             .collect();

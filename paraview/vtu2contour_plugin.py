@@ -1,0 +1,377 @@
+"""ParaView plugin: the filter *DEI Contour*, under *Filters > DEI*.
+
+It contours the cubics that vtu2contour makes of values, gradients and the PDE. The work is
+done in memory by the Python module ``vtu2contour``; how both are installed is in the README
+beside this file.
+"""
+
+import warnings
+
+from paraview.util.vtkAlgorithm import smhint, smproperty, smproxy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+
+paraview_plugin_name = "vtu2contour"
+paraview_plugin_version = "0.1.0"
+
+MISSING = (
+    "the Python module vtu2contour is missing: run paraview/install.sh of its sources, or install "
+    "it with `pip install --target FOLDER` and start ParaView with PYTHONPATH=FOLDER"
+)
+
+AUTOMATIC = "Automatic"
+INTERPOLANTS = ("pci", "quadratic-precision", "linear")
+METHODS = ("aodea", "odea", "sode", "intercept")
+AS_INPUT = 2
+
+# All properties, in the order of the panel. (ParaView 5.11 sorts those of methods by name.)
+PROPERTIES = """
+<InputProperty name="Input" command="SetInputConnection">
+  <ProxyGroupDomain name="groups"><Group name="sources"/><Group name="filters"/></ProxyGroupDomain>
+  <DataTypeDomain name="input_type"><DataType value="vtkDataSet"/></DataTypeDomain>
+  <InputArrayDomain name="input_array" attribute_type="point" number_of_components="1"/>
+  <Documentation>The mesh. Its two-dimensional cells have contour lines, its solids
+    iso-surfaces. Meshes of blocks are contoured block by block.</Documentation>
+</InputProperty>
+<StringVectorProperty name="SelectInputScalars" label="Contour By"
+    command="SetInputArrayToProcess" number_of_elements="5" element_types="0 0 0 0 2"
+    animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Scalars" input_domain_name="input_array">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array that is contoured.</Documentation>
+</StringVectorProperty>
+<DoubleVectorProperty name="ContourValues" label="Isosurfaces" command="SetValue"
+    number_of_elements="0" number_of_elements_per_command="1" repeat_command="1" use_index="1"
+    set_number_command="SetNumberOfContours" animateable="1">
+  <ArrayRangeDomain name="scalar_range">
+    <RequiredProperties>
+      <Property name="Input" function="Input"/>
+      <Property name="SelectInputScalars" function="ArraySelection"/>
+    </RequiredProperties>
+  </ArrayRangeDomain>
+  <Documentation>The levels, in the unit of the array. Moving one costs only the contour: the
+    cubics are kept while the input is the same.</Documentation>
+</DoubleVectorProperty>
+<StringVectorProperty name="Gradient" command="SetGradient" number_of_elements="1"
+    default_values="Automatic" animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Vectors" none_string="Automatic">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array that is the gradient of Contour By, per unit of length.
+    Automatic: one with a usual name that fits the values, such as grad_u; else the gradient is
+    recovered from the values.</Documentation>
+</StringVectorProperty>
+<IntVectorProperty name="RecoverGradient" label="Recover Gradient" command="SetRecoverGradient"
+    number_of_elements="1" default_values="0" panel_visibility="advanced">
+  <BooleanDomain name="bool"/>
+  <Documentation>Recover the gradient from the values even if an array holds it.</Documentation>
+</IntVectorProperty>
+<StringVectorProperty name="PDE" label="PDE" command="SetPDE" number_of_elements="1"
+    default_values="" animateable="0">
+  <Documentation>The equation that the array solves, if it is known: with it the cubics are of
+    fourth order. For example uxx + uyy = -k2*u. There, the array is always u; x y z, ux uy uz,
+    uxx ... uyz, sin, cos, exp ... may occur, point arrays by their names, and the
+    parameters.</Documentation>
+</StringVectorProperty>
+<StringVectorProperty name="Parameters" label="PDE Parameters" command="SetParameters"
+    number_of_elements="1" default_values="" panel_visibility="advanced">
+  <Documentation>Values of names in the PDE, such as k2=84.39, c=1.</Documentation>
+</StringVectorProperty>
+<DoubleVectorProperty name="Tolerance" command="SetTolerance" number_of_elements="1"
+    default_values="0">
+  <DoubleRangeDomain name="range" min="0"/>
+  <Documentation>No segment or triangle is further than this from the contour, in the unit of
+    length of the mesh. 0: by the size of the mesh, 1e-5 of its diagonal for lines and 1e-3 for
+    surfaces.</Documentation>
+</DoubleVectorProperty>
+<IntVectorProperty name="PointsPerSide" label="Points Per Side" command="SetPointsPerSide"
+    number_of_elements="1" default_values="0">
+  <IntRangeDomain name="range" min="0" max="64"/>
+  <Documentation>Points on each side of a patch of a surface, 2 or more, instead of a tolerance.
+    0: by the tolerance.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="ComputeNormals" label="Compute Normals" command="SetComputeNormals"
+    number_of_elements="1" default_values="1">
+  <BooleanDomain name="bool"/>
+  <Documentation>Add Normals to the points: those of the cubics, along the falling
+    gradient.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="ComputeGradients" label="Compute Gradients"
+    command="SetComputeGradients" number_of_elements="1" default_values="0">
+  <BooleanDomain name="bool"/>
+  <Documentation>Add the gradients of the cubics to the points, as Gradients.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="Method" command="SetMethod" number_of_elements="1" default_values="0"
+    panel_visibility="advanced">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="AODEA"/><Entry value="1" text="ODEA"/>
+    <Entry value="2" text="SODE"/><Entry value="3" text="Intercept"/>
+  </EnumerationDomain>
+  <Documentation>How lines are drawn between the edges of a cell.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="Interpolant" command="SetInterpolant" number_of_elements="1"
+    default_values="0" panel_visibility="advanced">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Cubic (PCI)"/>
+    <Entry value="1" text="Cubic without neighbours (quadratic precision)"/>
+    <Entry value="2" text="Linear"/>
+  </EnumerationDomain>
+  <Documentation>What is contoured: the cubics, or the linear interpolant of the values, for
+    comparison.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="OutputPointsPrecision" label="Output Points Precision"
+    command="SetOutputPointsPrecision" number_of_elements="1" default_values="2"
+    panel_visibility="advanced">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Single"/><Entry value="1" text="Double"/>
+    <Entry value="2" text="Same as input"/>
+  </EnumerationDomain>
+  <Documentation>The precision of the points.</Documentation>
+</IntVectorProperty>
+"""
+
+
+@smproxy.filter(name="DEIContour", label="DEI Contour")
+@smhint.xml('<ShowInMenu category="DEI"/><Visibility replace_input="2"/>')
+@smproperty.xml(PROPERTIES)
+class DEIContour(VTKPythonAlgorithmBase):
+    """Contours the cubics of the Differential Equation Interpolant."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=1, nOutputPorts=1, outputType="vtkPolyData")
+        self._values = []
+        self._solution = {}
+        self._parameters = ""
+        self._recover = False
+        self._gradient = AUTOMATIC
+        self._drawing = {"normals": True, "double": None}
+        #: the interpolant of the input that was seen last, and what it was made of
+        self._kept = (None, None)
+
+    # what is contoured
+
+    def SetGradient(self, name):
+        self._change("_gradient", name or AUTOMATIC)
+
+    def SetRecoverGradient(self, recover):
+        self._change("_recover", bool(recover))
+
+    def SetPDE(self, text):
+        # no text is None in some versions of ParaView, and "" in others
+        self._choose(self._solution, "pde", (text or "").strip() or None)
+
+    def SetParameters(self, text):
+        self._change("_parameters", text or "")
+
+    def SetInterpolant(self, number):
+        self._choose(self._solution, "interpolant", INTERPOLANTS[number])
+
+    # how contours are drawn
+
+    def SetNumberOfContours(self, count):
+        if count != len(self._values):
+            self._values = (self._values + [0.0] * count)[:count]
+            self.Modified()
+
+    def SetValue(self, place, value):
+        self._values += [0.0] * (place + 1 - len(self._values))
+        if self._values[place] != value:
+            self._values[place] = value
+            self.Modified()
+
+    def SetTolerance(self, tolerance):
+        self._choose(self._drawing, "tolerance", tolerance or None)
+
+    def SetPointsPerSide(self, points):
+        self._choose(self._drawing, "nside", points or None)
+
+    def SetComputeNormals(self, wanted):
+        self._choose(self._drawing, "normals", bool(wanted))
+
+    def SetComputeGradients(self, wanted):
+        self._choose(self._drawing, "gradients", bool(wanted))
+
+    def SetMethod(self, number):
+        self._choose(self._drawing, "method", METHODS[number])
+
+    def SetOutputPointsPrecision(self, number):
+        self._choose(self._drawing, "double", None if number == AS_INPUT else bool(number))
+
+    def _change(self, name, value):
+        if getattr(self, name) != value:
+            setattr(self, name, value)
+            self.Modified()
+
+    def _choose(self, options, name, value):
+        if options.get(name) != value:
+            options[name] = value
+            self.Modified()
+
+    # the pipeline
+
+    def FillInputPortInformation(self, port, info):
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
+        info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
+        return 1
+
+    def FillOutputPortInformation(self, port, info):
+        info.Set(vtkDataObject.DATA_TYPE_NAME(), "vtkDataObject")
+        return 1
+
+    def RequestDataObject(self, request, inputs, outputs):
+        """The output is a mesh of blocks if the input is."""
+        mesh = vtkDataObject.GetData(inputs[0], 0)
+        output = vtkDataObject.GetData(outputs, 0)
+        wanted = mesh.NewInstance() if mesh.IsA("vtkCompositeDataSet") else vtkPolyData()
+        if output is None or output.GetClassName() != wanted.GetClassName():
+            outputs.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), wanted)
+        return 1
+
+    def RequestUpdateExtent(self, request, inputs, outputs):
+        """Cells of neighbouring processes are wanted: gradients are recovered with them."""
+        levels = vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_GHOST_LEVELS()
+        info = inputs[0].GetInformationObject(0)
+        info.Set(levels, max(info.Get(levels), 1))
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        mesh = vtkDataObject.GetData(inputs[0], 0)
+        output = vtkDataObject.GetData(outputs, 0)
+        output.Initialize()
+        try:
+            import vtu2contour
+        except ImportError as error:
+            tell_error(f"{MISSING} ({error})")
+            return 1
+        size = diagonal_of_all(mesh)
+        if not has_cells(mesh):
+            return 1  # another process has them
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", UserWarning)
+            try:
+                made = self._interpolant(vtu2contour, mesh)
+                output.ShallowCopy(made.contour(self._values, size=size, **self._drawing))
+            except vtu2contour.NothingToContourError as error:
+                if processes() == 1:
+                    tell_error(error)
+            except (ValueError, TypeError) as error:
+                tell_error(error)
+        for warning in told:
+            tell_warning(warning.message)
+        return 1
+
+    def _interpolant(self, vtu2contour, mesh):
+        """The interpolant of the input: the one that was made before, if all is as it was."""
+        array = self.GetInputArrayInformation(0)
+        options = {
+            **self._solution,
+            "scalars": array.Get(vtkDataObject.FIELD_NAME()) or None,
+            "parameters": parameters(self._parameters),
+            "gradient": None if self._gradient == AUTOMATIC else self._gradient,
+        }
+        if self._recover:
+            options["gradient"] = "recover"
+        key = (state_of(mesh), options)
+        if self._kept[0] != key:
+            self._kept = (None, None)  # the memory of the old one is free before the new one
+            self._kept = (key, vtu2contour.MeshInterpolant(mesh, **options))
+        return self._kept[1]
+
+
+def parameters(text):
+    """The numbers of a text such as ``k2=84.39, c=1``."""
+    values = {}
+    for part in filter(None, (part.strip() for part in text.split(","))):
+        name, _, value = part.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            raise ValueError(f"PDE parameters are written name=number, not '{part}'") from None
+    return values
+
+
+def leaves(mesh):
+    """The meshes that a mesh of blocks is made of, or it alone."""
+    if not mesh.IsA("vtkCompositeDataSet"):
+        return [mesh]
+    iterator, found = mesh.NewIterator(), []
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        found.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return [leaf for leaf in found if leaf.IsA("vtkDataSet")]
+
+
+def has_cells(mesh):
+    """Whether there is anything to contour here."""
+    return any(leaf.GetNumberOfCells() for leaf in leaves(mesh))
+
+
+def state_of(mesh):
+    """What changes whenever a mesh or its data do: VTK's times are never the same twice.
+
+    Those of a grid itself will not do: readers hand the same arrays over in a new grid whenever
+    they are asked.
+    """
+    return [(state_of_cells(leaf), state_of_data(leaf)) for leaf in leaves(mesh)]
+
+
+def state_of_cells(leaf):
+    """When the points and the cells were changed."""
+    if leaf.IsA("vtkUnstructuredGrid") and leaf.GetPoints() is not None:
+        return leaf.GetPoints().GetMTime(), leaf.GetCells().GetMTime()
+    return (leaf.GetMTime(),)
+
+
+def state_of_data(leaf):
+    """When each array was changed, and which are the active scalars."""
+    all_data = (leaf.GetPointData(), leaf.GetCellData(), leaf.GetFieldData())
+    arrays = [
+        data.GetAbstractArray(n) for data in all_data for n in range(data.GetNumberOfArrays())
+    ]
+    active = leaf.GetPointData().GetScalars()
+    times = [(array.GetName(), array.GetMTime()) for array in arrays]
+    return times, None if active is None else active.GetName()
+
+
+def processes():
+    """How many processes work together."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    return 1 if controller is None else controller.GetNumberOfProcesses()
+
+
+def diagonal_of_all(mesh):
+    """The length of the diagonal of the box around the meshes of all processes, by which
+    pieces are equally fine where they meet; nothing for a single process."""
+    if processes() == 1:
+        return None
+    controller = vtkMultiProcessController.GetGlobalController()
+    boxes = [leaf.GetBounds() for leaf in leaves(mesh) if leaf.GetNumberOfPoints()]
+    # what is least of the negative is greatest
+    own = [max((sign * box[n] for box in boxes), default=-1e300) for n, sign in CORNERS]
+    here, there = vtkDoubleArray(), vtkDoubleArray()
+    for value in own:
+        here.InsertNextValue(value)
+    there.SetNumberOfValues(len(own))
+    controller.AllReduce(here, there, vtkCommunicator.MAX_OP)
+    sides = [there.GetValue(n) + there.GetValue(n + 3) for n in range(3)]
+    return sum(side**2 for side in sides) ** 0.5 if min(sides) >= 0 else None
+
+
+#: Places in VTK's bounds of the upper corner, and of the lower one with its sign turned.
+CORNERS = [(1, 1), (3, 1), (5, 1), (0, -1), (2, -1), (4, -1)]
+
+
+def tell_error(text):
+    """An error in ParaView's output messages."""
+    vtkOutputWindow.GetInstance().DisplayErrorText(f"DEI Contour: {text}\n")
+
+
+def tell_warning(text):
+    """A warning in ParaView's output messages."""
+    vtkOutputWindow.GetInstance().DisplayWarningText(f"DEI Contour: {text}\n")

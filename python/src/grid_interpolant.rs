@@ -1,0 +1,81 @@
+//! The interpolant of a grid, with the data that travel along.
+
+use std::borrow::Cow;
+
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vtu2contour::filter::{ContourOptions, Interpolant, Locators, Solution, prepared};
+use vtu2contour::vtk::UnstructuredGrid;
+
+use super::arrays::{rows, vectors};
+use super::grid::GridParts;
+use super::job;
+use super::options::{DrawingOptions, SolutionOptions};
+use super::output::{self, Done};
+
+/// The interpolant of a grid, made once and contoured at any levels.
+#[pyclass(frozen)]
+pub struct GridInterpolant {
+    /// The grid as it is contoured, for its data.
+    grid: UnstructuredGrid,
+    interpolant: Interpolant<'static>,
+    locators: std::sync::OnceLock<Locators>,
+}
+
+#[pymethods]
+impl GridInterpolant {
+    /// Of a grid that was taken apart, see `vtu2contour/_vtk.py`.
+    #[new]
+    fn new(py: Python, grid: GridParts, options: SolutionOptions) -> PyResult<Self> {
+        let (grid, options) = (grid.grid()?, options.options()?);
+        let (grid, interpolant) = job::run(py, move || {
+            let grid = prepared(Cow::Owned(grid), &options)?.into_owned();
+            let solution = Solution::of_grid(&grid, &options)?;
+            let interpolant = Interpolant::new(solution, &options)?;
+            Ok((grid, interpolant))
+        })?;
+        Ok(Self { grid, interpolant, locators: std::sync::OnceLock::new() })
+    }
+
+    /// Its contours, and what was done.
+    fn contour<'py>(
+        &self,
+        py: Python<'py>,
+        options: DrawingOptions,
+    ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+        let options: ContourOptions = options.options()?;
+        let (data, done) = job::run(py, || {
+            let contours = self.interpolant.contours(&options)?;
+            let output = self.interpolant.output(&contours, options.output(&self.grid));
+            let done = Done::new(&self.interpolant, &contours);
+            Ok((output.poly_data(&self.grid), done))
+        })?;
+        Ok((output::poly_data(py, data)?, output::report(py, &done)?))
+    }
+
+    /// Values at points, and gradients.
+    #[allow(clippy::type_complexity)]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<f64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let points = vectors(&points, "points")?;
+        let (values, gradients): (Vec<f64>, Vec<_>) = job::run(py, || {
+            let locators = self.locators.get_or_init(|| Locators::new(&self.interpolant));
+            Ok(locators.evaluate(&self.interpolant, points).into_iter().unzip())
+        })?;
+        Ok((PyArray1::from_vec(py, values), rows(py, gradients)?))
+    }
+
+    /// What people should know of it, a line each.
+    fn warnings(&self) -> Vec<String> {
+        output::warnings(&self.interpolant.interpolation)
+    }
+
+    /// What is known of it.
+    fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        output::information(py, &self.interpolant)
+    }
+}

@@ -1,0 +1,24 @@
+//! The Python module: arrays in, arrays out. What users see is in `python/vtu2contour`.
+
+mod array_interpolant;
+mod arrays;
+mod error;
+mod grid;
+mod grid_interpolant;
+mod job;
+mod options;
+mod output;
+
+/// The compiled part of `vtu2contour`.
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::array_interpolant::ArrayInterpolant;
+    #[pymodule_export]
+    use super::error::{MissingArrayError, NothingToContourError};
+    #[pymodule_export]
+    use super::grid_interpolant::GridInterpolant;
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

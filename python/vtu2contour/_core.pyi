@@ -1,0 +1,40 @@
+"""The compiled part: arrays in, dictionaries of arrays out."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+VERSION: str
+
+class MissingArrayError(ValueError):
+    """The mesh has no point array of that name, or none at all."""
+
+class NothingToContourError(ValueError):
+    """The mesh has no cells that can be contoured, or no finite values in them."""
+
+class _Interpolant:
+    def contour(self, options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]: ...
+    def evaluate(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def warnings(self) -> list[str]: ...
+    def info(self) -> dict[str, Any]: ...
+
+class ArrayInterpolant(_Interpolant):
+    """The interpolant of NumPy arrays, which stay where they are."""
+
+    def __new__(
+        cls,
+        points: NDArray[np.float64],
+        cells: NDArray[np.uint32],
+        values: NDArray[np.float64],
+        gradients: NDArray[np.float64] | None,
+        options: dict[str, Any],
+        arrays: list[tuple[str, NDArray[np.float64]]],
+    ) -> ArrayInterpolant: ...
+
+class GridInterpolant(_Interpolant):
+    """The interpolant of a grid, with the data that travel along."""
+
+    def __new__(cls, grid: dict[str, Any], options: dict[str, Any]) -> GridInterpolant: ...

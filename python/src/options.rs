@@ -66,7 +66,11 @@ impl SolutionOptions {
             Some("recover") => GradientSource::Recovered,
             Some(name) => GradientSource::Array(name.to_owned()),
         };
-        let interpolants = [("pci", InterpolantKind::Pci), ("linear", InterpolantKind::Linear)];
+        let interpolants = [
+            ("pci", InterpolantKind::Pci),
+            ("quadratic-precision", InterpolantKind::QuadraticPrecision),
+            ("linear", InterpolantKind::Linear),
+        ];
         let predictors = [("quadratic", Predictor::Quadratic), ("linear", Predictor::Linear)];
         Ok(ContourOptions {
             array: self.scalars,

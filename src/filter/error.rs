@@ -100,8 +100,8 @@ pub enum FilterError {
     )]
     TooSmall { option: &'static str, value: f64, least: f64 },
 
-    #[error("--pde cannot be used with the linear interpolant: leave one of them out")]
-    LinearPde,
+    #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
+    UnusedPde,
 }
 
 impl FilterError {

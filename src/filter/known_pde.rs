@@ -21,14 +21,14 @@ impl KnownPde {
     /// (a parameter of that name wins) and point arrays of one component.
     ///
     /// # Errors
-    /// If the PDE cannot be read, or there is one for the linear interpolant.
+    /// If the PDE cannot be read, or there is one for an interpolant that uses none.
     pub fn of_grid(
         grid: &UnstructuredGrid,
         options: &ContourOptions,
     ) -> Result<Option<Self>, FilterError> {
         let Some(text) = &options.pde else { return Ok(None) };
-        if options.interpolant == InterpolantKind::Linear {
-            return Err(FilterError::LinearPde);
+        if options.interpolant != InterpolantKind::Pci {
+            return Err(FilterError::UnusedPde);
         }
         let scalars: Vec<_> = grid.point_data.iter().filter(|a| a.components == 1).collect();
         let names: Vec<String> = scalars.iter().map(|array| array.name.clone()).collect();
@@ -47,16 +47,16 @@ impl KnownPde {
     /// given arrays, of one value for each of the `points`.
     ///
     /// # Errors
-    /// If the PDE cannot be read, an array is not of that length, or there is a PDE for the
-    /// linear interpolant.
+    /// If the PDE cannot be read, an array is not of that length, or there is a PDE for an
+    /// interpolant that uses none.
     pub fn of_arrays(
         options: &ContourOptions,
         points: usize,
         arrays: Vec<(String, Vec<f64>)>,
     ) -> Result<Option<Self>, FilterError> {
         let Some(text) = &options.pde else { return Ok(None) };
-        if options.interpolant == InterpolantKind::Linear {
-            return Err(FilterError::LinearPde);
+        if options.interpolant != InterpolantKind::Pci {
+            return Err(FilterError::UnusedPde);
         }
         if let Some((_, values)) = arrays.iter().find(|(_, values)| values.len() != points) {
             let (what, count) = ("values of an array in the PDE", values.len());

@@ -35,7 +35,8 @@ impl<'a> DiscontinuousTricubic<'a> {
         let faces: Vec<([f64; 4], bool)> = tetrahedra
             .par_chunks(CHUNK)
             .flat_map_iter(|chunk| {
-                let equations = face_equations(mesh, &field, equation, chunk);
+                let start = |tetrahedron| quadratic_precision(mesh, &field, tetrahedron);
+                let equations = face_equations(mesh, equation, chunk, start);
                 chunk.iter().zip(equations).map(|(&tetrahedron, equations)| {
                     let cubic = quadratic_precision(mesh, &field, tetrahedron);
                     let start = TetrahedronCubic::FACES.map(|place| cubic.coefficients[place]);

@@ -3,8 +3,11 @@
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
+mod completion;
+mod constant;
 mod discontinuous;
 mod equation;
+mod face_completion;
 mod face_equations;
 mod hermite;
 mod least_squares;

@@ -42,6 +42,8 @@ pub struct Row {
     pub continuous: f64,
     /// Ours without the PDE.
     pub without_pde: f64,
+    /// Without neighbours too.
+    pub quadratic_precision: f64,
     /// Of the linear interpolant.
     pub linear: f64,
 }
@@ -65,7 +67,8 @@ fn row(problem: &Problem, mesh: &TetrahedronMesh, thesis: f64) -> Row {
     let equation = |predictor| Equation { pde: &pde, arrays: &[], predictor };
     let ours = Tricubic::with_pde(mesh, field, &equation(Predictor::Quadratic));
     let theirs = DiscontinuousTricubic::with_pde(mesh, field, &equation(Predictor::Linear));
-    let plain = Tricubic::new(mesh, field);
+    let free = Tricubic::new(mesh, field);
+    let plain = Tricubic::with_quadratic_precision(mesh, field);
     let linear = Linear::new(mesh, &values);
     let places = regular_places(mesh);
     let error = |cubic: &dyn Fn(usize) -> TetrahedronCubic| {
@@ -82,7 +85,8 @@ fn row(problem: &Problem, mesh: &TetrahedronMesh, thesis: f64) -> Row {
         thesis,
         discontinuous: error(&|tetrahedron| theirs.cubic(tetrahedron)),
         continuous: error(&|tetrahedron| ours.cubic(tetrahedron)),
-        without_pde: error(&|tetrahedron| plain.cubic(tetrahedron)),
+        without_pde: error(&|tetrahedron| free.cubic(tetrahedron)),
+        quadratic_precision: error(&|tetrahedron| plain.cubic(tetrahedron)),
         linear: error(&|tetrahedron| linear.cubic(tetrahedron)),
     }
 }

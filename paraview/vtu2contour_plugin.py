@@ -23,7 +23,7 @@ MISSING = (
 )
 
 AUTOMATIC = "Automatic"
-INTERPOLANTS = ("pci", "quadratic-precision", "linear")
+INTERPOLANTS = ("pci", "linear", "quadratic-precision")
 METHODS = ("aodea", "odea", "sode", "intercept")
 AS_INPUT = 2
 
@@ -72,8 +72,8 @@ PROPERTIES = """
 </IntVectorProperty>
 <StringVectorProperty name="PDE" label="PDE" command="SetPDE" number_of_elements="1"
     default_values="" animateable="0">
-  <Documentation>The equation that the array solves, if it is known: with it the cubics are of
-    fourth order. For example uxx + uyy = -k2*u. There, the array is always u; x y z, ux uy uz,
+  <Documentation>The equation that the array solves, if it is known: the cubics solve it too.
+    For example uxx + uyy = -k2*u. There, the array is always u; x y z, ux uy uz,
     uxx ... uyz, sin, cos, exp ... may occur, point arrays by their names, and the
     parameters.</Documentation>
 </StringVectorProperty>
@@ -116,12 +116,11 @@ PROPERTIES = """
 <IntVectorProperty name="Interpolant" command="SetInterpolant" number_of_elements="1"
     default_values="0" panel_visibility="advanced">
   <EnumerationDomain name="enum">
-    <Entry value="0" text="Cubic (PCI)"/>
-    <Entry value="1" text="Cubic without neighbours (quadratic precision)"/>
-    <Entry value="2" text="Linear"/>
+    <Entry value="0" text="Cubic (PCI)"/><Entry value="1" text="Linear"/>
+    <Entry value="2" text="Quadratic precision"/>
   </EnumerationDomain>
-  <Documentation>What is contoured: the cubics, or the linear interpolant of the values, for
-    comparison.</Documentation>
+  <Documentation>What is contoured: the cubics; for comparison, cubics of each cell by itself, or
+    the linear interpolant of the values.</Documentation>
 </IntVectorProperty>
 <IntVectorProperty name="OutputPointsPrecision" label="Output Points Precision"
     command="SetOutputPointsPrecision" number_of_elements="1" default_values="2"

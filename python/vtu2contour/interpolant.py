@@ -38,14 +38,14 @@ class Interpolant:
         Gradients at the points, per unit of length, shape (n, 3) or (n, 2); recovered from the
         values if not given.
     pde
-        The equation that ``u`` solves, such as ``"uxx + uyy = -6"``: with it the cubics are of
-        fourth order.
+        The equation that ``u`` solves, such as ``"uxx + uyy = -6"``: the cubics solve it too.
     parameters
         Values of names in the PDE.
     arrays
         Arrays of one value a point, shape (n,), that the PDE names.
     interpolant
-        ``"pci"``, or for comparison ``"quadratic-precision"`` (without neighbours) or ``"linear"``.
+        ``"pci"``; or, for comparison, ``"quadratic-precision"`` (each cell by itself, of third
+        order) or ``"linear"``.
     predictor
         Where a PDE's right-hand side takes the solution from: ``"quadratic"`` or ``"linear"``.
 

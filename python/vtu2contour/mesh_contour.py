@@ -224,11 +224,12 @@ def contour(
         usual name that fits the values, else it is recovered. ``"recover"`` forces that.
     pde
         The equation that the array solves, such as ``"uxx + uyy = -k2*u"``; there, the array is
-        always ``u``. With it the cubics are of fourth order.
+        always ``u``. The cubics solve it too.
     parameters
         Values of names in the PDE, such as ``{"k2": 84.4}``. Point arrays may be named too.
     interpolant
-        ``"pci"``, or for comparison ``"quadratic-precision"`` (without neighbours) or ``"linear"``.
+        ``"pci"``; or, for comparison, ``"quadratic-precision"`` (each cell by itself, of third
+        order) or ``"linear"``.
     predictor
         Where a PDE's right-hand side takes the solution from: ``"quadratic"`` or ``"linear"``.
     merge_points

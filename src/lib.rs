@@ -16,7 +16,7 @@
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
 //! | [`simplices`] | VTK's cells as triangles and tetrahedra |
-//! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours |
+//! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours, location |
 //! | [`svg`] | pictures |
 //! | [`vtk`] | the VTK file formats |
 //! | [`bernstein`] | polynomials on simplices, their bounds and roots |

@@ -5,9 +5,11 @@
 //! (frames, neighbours, boundary edges) is computed from these when needed.
 
 mod boundary;
+mod closest_point;
 mod faces;
 mod frame;
 mod neighbours;
+mod point_locator;
 mod simplex_mesh;
 mod tetrahedron_frame;
 
@@ -15,6 +17,7 @@ pub use boundary::boundary_edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;
+pub use point_locator::{Location, PointLocator};
 pub use simplex_mesh::{MeshError, SimplexMesh, TetrahedronMesh, TriangleMesh};
 pub use tetrahedron_frame::TetrahedronFrame;
 

@@ -3,21 +3,22 @@
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
-mod discontinuous;
 mod equation;
 mod face_equations;
+pub mod family;
 mod hermite;
 mod least_squares;
 mod linear;
 mod pci;
 mod pde_fit;
+mod pieces;
 mod tricubic;
 
-pub use discontinuous::DiscontinuousTricubic;
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
 pub use pci::Pci;
 pub use pde_fit::PdeFit;
+pub use pieces::{Pieces, Taylor};
 pub use tricubic::Tricubic;
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};

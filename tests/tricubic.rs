@@ -13,7 +13,7 @@ use vtu2contour::bernstein::Barycentric4;
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{Equation, Linear, Predictor, TetrahedronCubics, Tricubic};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
-use vtu2contour::pde::{Pde, Sample};
+use vtu2contour::pde::Pde;
 
 fn equation<'a>(pde: &'a Pde, arrays: &'a [Vec<f64>]) -> Equation<'a> {
     Equation { pde, arrays, predictor: Predictor::Quadratic }

@@ -108,10 +108,7 @@ impl<const CORNERS: usize, const N: usize> Dei<'_, CORNERS, N> {
     /// A polynomial of the space, with derivatives, at a place.
     fn taylor_of(&self, piece: &[f64; N], cell: &Cell<CORNERS>, at: &[f64; CORNERS]) -> Taylor {
         let powers = Powers::new(&cell.bounds.coordinates(&cell.position(at)));
-        let derivative = |orders: [usize; 3]| -> f64 {
-            let monomials = self.monomials.derivatives(&powers, orders);
-            piece.iter().zip(monomials).map(|(coefficient, monomial)| coefficient * monomial).sum()
-        };
+        let derivative = |orders| self.monomials.derivative_of(piece, &powers, orders);
         let mut taylor = Taylor {
             value: derivative([0; 3]),
             gradient: cell.bounds.gradient(&FIRST.map(derivative)),
@@ -157,6 +154,7 @@ struct Search<'a, const CORNERS: usize, const N: usize> {
 struct Sought<const CORNERS: usize, const N: usize> {
     cell: usize,
     with_data: Cell<CORNERS>,
+    given: System<N>,
     predicted: [f64; N],
     best: Option<Solution<N>>,
 }
@@ -184,7 +182,8 @@ where
     fn sought(&self, cell: usize) -> Option<Sought<CORNERS, N>> {
         let with_data = self.of.cell(cell)?;
         let predicted = with_data.predicted(&self.of.monomials, Predictor::Quadratic);
-        Some(Sought { cell, with_data, predicted, best: None })
+        let given = System::new(&self.of.space, &self.of.monomials, &with_data);
+        Some(Sought { cell, with_data, given, predicted, best: None })
     }
 
     /// Solves the systems of some cells, and keeps what is better than before.
@@ -206,7 +205,10 @@ where
             .collect();
         for (sought, conditions) in open.iter_mut().zip(conditions.chunks(self.chosen.len())) {
             let monomials = &self.of.monomials;
-            let system = System::new(&self.of.space, monomials, &sought.with_data, conditions);
+            let mut system = sought.given.clone();
+            for condition in conditions {
+                system.collocate(monomials, &sought.with_data, condition);
+            }
             let found = system.solve(monomials);
             let before = sought.best.map_or(f64::INFINITY, |best| best.size);
             sought.best = found.filter(|found| found.size < before).or(sought.best);
@@ -228,13 +230,16 @@ where
                 &linear
             }
         };
-        let taylor = self.of.taylor_of(predicted, &sought.with_data, at);
+        let (cell, monomials) = (&sought.with_data, &self.of.monomials);
+        let position = cell.position(at);
+        let powers = Powers::new(&cell.bounds.coordinates(&position));
+        let derivative = |orders| monomials.derivative_of(predicted, &powers, orders);
         collocation.push(&Place {
             points: &self.of.mesh.simplices()[sought.cell],
             at,
-            position: sought.with_data.position(at),
-            value: taylor.value,
-            gradient: taylor.gradient,
+            position,
+            value: derivative([0; 3]),
+            gradient: cell.bounds.gradient(&FIRST.map(derivative)),
         });
     }
 

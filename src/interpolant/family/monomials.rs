@@ -44,7 +44,18 @@ impl<const N: usize> Monomials<N> {
     /// at a place.
     pub fn derivatives(&self, at: &Powers, orders: [usize; 3]) -> [f64; N] {
         let [s, t, v] = [0, 1, 2].map(|axis| &at.0[axis][orders[axis]]);
-        self.powers.map(|[i, j, k]| s[usize::from(i)] * t[usize::from(j)] * v[usize::from(k)])
+        let mut derivatives = [0.0; N];
+        for (derivative, powers) in derivatives.iter_mut().zip(&self.powers) {
+            let [i, j, k] = powers.map(usize::from);
+            *derivative = s[i] * t[j] * v[k];
+        }
+        derivatives
+    }
+
+    /// A derivative of a polynomial.
+    pub fn derivative_of(&self, coefficients: &[f64; N], at: &Powers, orders: [usize; 3]) -> f64 {
+        let monomials = self.derivatives(at, orders);
+        coefficients.iter().zip(monomials).map(|(factor, monomial)| factor * monomial).sum()
     }
 
     /// Adds to the coefficient of a monomial with powers up to two each, all of which

@@ -45,12 +45,11 @@ pub(super) struct Solution<const N: usize> {
 }
 
 impl<const N: usize> System<N> {
-    /// The system of a cell, with as many conditions as are missing.
+    /// What is given of a cell; as many conditions are missing as the space has points.
     pub fn new<const CORNERS: usize>(
         space: &Space<CORNERS, N>,
         monomials: &Monomials<N>,
         cell: &Cell<CORNERS>,
-        conditions: &[Condition<CORNERS>],
     ) -> Self {
         let (constant, slopes) = cell.plane();
         let plane = [constant, slopes[0], slopes[1], slopes[2]];
@@ -66,15 +65,12 @@ impl<const N: usize> System<N> {
                 system.push(&row, given[axis] - slopes[axis]);
             }
         }
-        for condition in conditions {
-            system.collocate(monomials, cell, condition);
-        }
         system
     }
 
     /// Adds `L p = g`, scaled such that the factors of `L` in the box's coordinates sum
     /// to one. `L` of the plane is zero.
-    fn collocate<const CORNERS: usize>(
+    pub fn collocate<const CORNERS: usize>(
         &mut self,
         monomials: &Monomials<N>,
         cell: &Cell<CORNERS>,
@@ -85,8 +81,9 @@ impl<const N: usize> System<N> {
         let powers = Powers::new(&cell.bounds.coordinates(&cell.position(&condition.at)));
         let mut row = [0.0; N];
         for i in 0..3 {
-            for j in 0..3 {
-                let weight = scale * weights[i][j];
+            for j in 0..=i {
+                let twice = if i == j { 1.0 } else { 2.0 };
+                let weight = scale * twice * weights[i][j];
                 if weight != 0.0 {
                     let second = monomials.derivatives(&powers, both(FIRST[i], FIRST[j]));
                     row.iter_mut().zip(second).for_each(|(row, term)| *row += weight * term);

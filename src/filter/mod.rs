@@ -24,6 +24,7 @@ mod preview;
 mod range_warning;
 mod report;
 mod resample;
+mod sampling;
 mod solution;
 mod surface_output;
 
@@ -40,4 +41,5 @@ pub use output::ORIGINAL_CELLS;
 pub use picture::picture;
 pub use preview::{Preview, preview};
 pub use report::Report;
+pub use sampling::{RefinedGrid, Refinement, Sampled, refine, sample, sample_image};
 pub use solution::{Domain, Solution};

@@ -3,6 +3,7 @@
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
+mod bent_edges;
 mod equation;
 mod face_equations;
 pub mod family;
@@ -14,6 +15,7 @@ mod pde_fit;
 mod pieces;
 mod tricubic;
 
+pub use bent_edges::{bent_edges_of_tetrahedron, bent_edges_of_triangle};
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
 pub use pci::Pci;

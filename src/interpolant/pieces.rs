@@ -48,7 +48,7 @@ impl Taylor {
 }
 
 /// Cubics are pieces.
-impl<T: TriangleCubics> Pieces<3> for T {
+impl<T: TriangleCubics + ?Sized> Pieces<3> for T {
     fn mesh(&self) -> &TriangleMesh {
         TriangleCubics::mesh(self)
     }
@@ -62,7 +62,7 @@ impl<T: TriangleCubics> Pieces<3> for T {
 }
 
 /// Cubics are pieces.
-impl<T: TetrahedronCubics> Pieces<4> for T {
+impl<T: TetrahedronCubics + ?Sized> Pieces<4> for T {
     fn mesh(&self) -> &TetrahedronMesh {
         TetrahedronCubics::mesh(self)
     }

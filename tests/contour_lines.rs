@@ -381,9 +381,9 @@ fn lines_along_edges_have_the_higher_side_on_the_left() {
 #[test]
 fn a_loop_that_begins_and_ends_in_a_node_is_drawn() {
     // a petal at the corner of one triangle
-    struct Petal(TriangleMesh);
+    struct Petal(TriangleMesh<'static>);
     impl TriangleCubics for Petal {
-        fn mesh(&self) -> &TriangleMesh {
+        fn mesh(&self) -> &TriangleMesh<'_> {
             &self.0
         }
         fn cubic(&self, _: usize) -> TriangleCubic {

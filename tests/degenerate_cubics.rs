@@ -16,7 +16,7 @@ const TOLERANCE: f64 = 1e-3;
 
 /// A cubic given by its coefficients, on the triangle of the unit axes.
 struct OneCell {
-    mesh: TriangleMesh,
+    mesh: TriangleMesh<'static>,
     cubic: TriangleCubic,
 }
 
@@ -40,7 +40,7 @@ impl OneCell {
 }
 
 impl TriangleCubics for OneCell {
-    fn mesh(&self) -> &TriangleMesh {
+    fn mesh(&self) -> &TriangleMesh<'_> {
         &self.mesh
     }
 

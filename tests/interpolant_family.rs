@@ -30,12 +30,12 @@ fn equation(pde: &Pde) -> Equation<'_> {
     Equation { pde, arrays: &[], predictor: Predictor::Quadratic }
 }
 
-fn triangles(seed: u64) -> TriangleMesh {
+fn triangles(seed: u64) -> TriangleMesh<'static> {
     Domain::rectangle("square", 1.0, 1.0).mesh(&mut Random(seed), 0.2)
 }
 
 /// A grid of tetrahedra, turned such that no edge is along an axis, its points moved.
-fn tetrahedra(random: &mut Random) -> TetrahedronMesh {
+fn tetrahedra(random: &mut Random) -> TetrahedronMesh<'static> {
     let grid = kuhn_grid(3);
     let turn = Rotation3::from_euler_angles(0.3, 0.4, 0.5);
     let moved = |p: &Vector| turn * p + Vector::from([(); 3].map(|()| random.uniform(-0.05, 0.05)));
@@ -44,7 +44,7 @@ fn tetrahedra(random: &mut Random) -> TetrahedronMesh {
 }
 
 /// The unit square as rectangles, its corners in turn, wider to the right.
-fn rectangles() -> SimplexMesh<4> {
+fn rectangles() -> SimplexMesh<'static, 4> {
     let at = |k: u32| f64::from(k * k) / 16.0;
     let points = (0..5).flat_map(|j| (0..5).map(move |i| Vector::new(at(i), at(j) / 2.0, 0.0)));
     let corners = (0..4).flat_map(|j| (0..4).map(move |i| 5 * j + i));

@@ -56,7 +56,7 @@ fn check_against_all<const CORNERS: usize>(
 }
 
 /// The square rolled to three quarters of a cylinder.
-fn rolled(square: &TriangleMesh) -> TriangleMesh {
+fn rolled(square: &TriangleMesh) -> TriangleMesh<'static> {
     let roll = |p: &Vector| {
         let (sin, cos) = (1.5 * std::f64::consts::PI * p.x).sin_cos();
         Vector::new(0.3 * cos, 0.3 * sin, p.y)

@@ -11,7 +11,7 @@ use vtu2contour::field::{RecoveryDegree, recover_gradients};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
 
 /// The same grid with its inner points moved by up to a fifth of the spacing.
-fn shaken_grid(random: &mut Random, n: usize) -> TetrahedronMesh {
+fn shaken_grid(random: &mut Random, n: usize) -> TetrahedronMesh<'static> {
     let mesh = kuhn_grid(n);
     let shaken = mesh.points().iter().map(|point| {
         let move_by = Vector::from([(); 3].map(|()| random.uniform(-0.2, 0.2) / n as f64));

@@ -118,7 +118,7 @@ fn on_cube(mesh: &TetrahedronMesh) -> Vec<bool> {
 }
 
 /// A grid of cubes with all points moved, those of the boundary along it.
-fn shaken_cube(random: &mut Random, n: usize) -> TetrahedronMesh {
+fn shaken_cube(random: &mut Random, n: usize) -> TetrahedronMesh<'static> {
     let mesh = kuhn_grid(n);
     let moved = mesh.points().iter().map(|point| {
         point.map(|x| {

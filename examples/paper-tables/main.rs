@@ -19,6 +19,9 @@ use support::tables_of_surfaces::TABLES;
 use support::{order::order, table_5_1, table_5_3, table_5_7};
 use table_5_1::Points;
 
+/// Makes what is called a table in the thesis.
+type Make = fn() -> Vec<Table>;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let mut wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(place) = wanted.iter().position(|word| word == "--figures") {
@@ -28,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let markdown = wanted.iter().any(|word| word == "--markdown");
     let style = if markdown { Style::Markdown } else { Style::Text };
     wanted.retain(|word| word != "--markdown");
-    let tables: [(&str, fn() -> Vec<Table>); 7] = [
+    let tables: [(&str, Make); 7] = [
         ("5.1", tables_5_1),
         ("5.2", times::table_5_2),
         ("5.3", tables_5_3),

@@ -9,6 +9,7 @@
 //! 3. the curve through each piece, by one of four methods, and the arcs joined
 //!    into polylines.
 
+mod components;
 mod crossings;
 mod extreme;
 mod extreme_in_tetrahedron;

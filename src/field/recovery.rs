@@ -159,7 +159,11 @@ mod tests {
 
     /// An n by n grid of the unit square, its points moved by up to a third of
     /// the spacing, each square cut into two triangles.
-    fn shaken_grid(n: usize, moves: &[f64], lift: impl Fn(f64, f64) -> f64) -> TriangleMesh {
+    fn shaken_grid(
+        n: usize,
+        moves: &[f64],
+        lift: impl Fn(f64, f64) -> f64,
+    ) -> TriangleMesh<'static> {
         let spacing = 1.0 / (n - 1) as f64;
         let point = |i: usize, j: usize| {
             let k = 2 * (i * n + j);

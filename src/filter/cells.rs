@@ -9,7 +9,7 @@ use crate::vtk::{UnstructuredGrid, Values};
 #[derive(Clone, Debug)]
 pub struct Part<const CORNERS: usize> {
     /// The simplices, with all the grid's points.
-    pub mesh: SimplexMesh<CORNERS>,
+    pub mesh: SimplexMesh<'static, CORNERS>,
     /// The cell of the grid that each simplex came from.
     pub parents: Vec<u32>,
 }
@@ -74,13 +74,13 @@ impl<const CORNERS: usize> Part<CORNERS> {
     }
 }
 
-/// Whether the grid marks a cell as one of another process, which contours it.
-pub fn is_ghost(grid: &UnstructuredGrid, cell: u32) -> bool {
-    let ghost = grid.cell_data.get(GHOSTS).map(|array| &array.values);
-    match ghost {
-        Some(Values::U8(flags)) => {
-            flags.get(cell as usize).is_some_and(|flag| flag & DUPLICATE != 0)
-        }
-        _ => false,
-    }
+/// Whether each of the given cells is one of another process, which contours it; nothing
+/// if the grid marks none.
+pub fn ghosts(grid: &UnstructuredGrid, cells: &[u32]) -> Option<Vec<bool>> {
+    let Values::U8(flags) = &grid.cell_data.get(GHOSTS)?.values else { return None };
+    let is_ghost = |cell: u32| flags.get(cell as usize).is_some_and(|flag| flag & DUPLICATE != 0);
+    flags
+        .iter()
+        .any(|flag| flag & DUPLICATE != 0)
+        .then(|| cells.iter().map(|&c| is_ghost(c)).collect())
 }

@@ -77,6 +77,11 @@ pub enum FilterError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
 
+    #[error(
+        "there must be one of the {what} for each point: there are {count}, and {points} points"
+    )]
+    NotOneAPoint { what: &'static str, count: usize, points: usize },
+
     #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
 

@@ -1,5 +1,6 @@
 //! The gradient of the array that is contoured.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use super::chosen_array::{ChosenArray, Component, named};
@@ -50,19 +51,40 @@ impl fmt::Display for GradientOrigin {
 
 /// Gradients at the points, and where they came from.
 #[derive(Clone, Debug)]
-pub struct Gradients {
+pub struct Gradients<'a> {
     /// One gradient a point.
-    pub vectors: Vec<Vector>,
+    pub vectors: Cow<'a, [Vector]>,
     /// Where they came from.
     pub origin: GradientOrigin,
     /// What people should know about the choice.
     pub warning: Option<String>,
 }
 
-impl Gradients {
+impl<'a> Gradients<'a> {
+    /// The given gradients, one a point; `name` and `label` say of what they are.
+    pub fn given<const CORNERS: usize>(
+        mesh: &SimplexMesh<CORNERS>,
+        values: &[f64],
+        vectors: Cow<'a, [Vector]>,
+        name: &str,
+        label: &str,
+    ) -> Self {
+        let count = mesh.points().len();
+        // a solution refuses other lengths
+        let is_whole = values.len() == count && vectors.len() == count;
+        let misfit = if is_whole { misfit(mesh, values, &vectors) } else { 0.0 };
+        let warning = (misfit > WORST_FIT).then(|| {
+            let difference = difference(misfit);
+            format!("array '{name}' does not look like the gradient of '{label}': {difference}")
+        });
+        Self { vectors, origin: GradientOrigin::Array(name.to_owned()), warning }
+    }
+}
+
+impl Gradients<'static> {
     /// No gradients, for an interpolant that needs none.
     pub fn none() -> Self {
-        Self { vectors: Vec::new(), origin: GradientOrigin::Unused, warning: None }
+        Self { vectors: Cow::default(), origin: GradientOrigin::Unused, warning: None }
     }
 
     /// The gradients of the chosen array's values.
@@ -84,22 +106,15 @@ impl Gradients {
                     None => return Err(missing(grid, name)),
                 };
                 let vectors = arrays.vectors(chosen).ok_or_else(|| wrong_shape(&arrays, chosen))?;
-                let misfit = misfit(mesh, values, &vectors);
-                let warning = (misfit > WORST_FIT).then(|| {
-                    format!(
-                        "array '{name}' does not look like the gradient of '{}': {}",
-                        chosen.label(),
-                        difference(misfit)
-                    )
-                });
-                Ok(Self { vectors, origin: GradientOrigin::Array(name.clone()), warning })
+                Ok(Self::given(mesh, values, vectors.into(), name, &chosen.label()))
             }
             GradientSource::Automatic => Ok(Self::automatic(grid, mesh, chosen, values)),
         }
     }
 
-    fn recovered<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>, values: &[f64]) -> Self {
-        let vectors = recover_gradients(mesh, values, RecoveryDegree::default());
+    /// Gradients recovered from the values.
+    pub fn recovered<const CORNERS: usize>(mesh: &SimplexMesh<CORNERS>, values: &[f64]) -> Self {
+        let vectors = recover_gradients(mesh, values, RecoveryDegree::default()).into();
         Self { vectors, origin: GradientOrigin::Recovered, warning: None }
     }
 
@@ -115,14 +130,14 @@ impl Gradients {
             return None;
         }
         let mut corners = mesh.simplices().iter().flatten();
-        let vectors = if corners.all(|&point| known[point as usize].is_some()) {
+        let vectors: Vec<Vector> = if corners.all(|&point| known[point as usize].is_some()) {
             known.into_iter().map(Option::unwrap_or_default).collect()
         } else {
             let recovered = recover_gradients(mesh, values, RecoveryDegree::default());
             let pairs = known.into_iter().zip(recovered);
             pairs.map(|(known, recovered)| known.unwrap_or(recovered)).collect()
         };
-        Some(Self { vectors, origin: GradientOrigin::Cells, warning: None })
+        Some(Self { vectors: vectors.into(), origin: GradientOrigin::Cells, warning: None })
     }
 
     /// An array with a conventional name that fits the values, else by quadratic
@@ -139,7 +154,7 @@ impl Gradients {
             let misfit = misfit(mesh, values, &vectors);
             if misfit <= WORST_FIT {
                 let origin = GradientOrigin::Array(arrays.name());
-                return Self { vectors, origin, warning: None };
+                return Self { vectors: vectors.into(), origin, warning: None };
             }
             if arrays.is_certain {
                 refused.get_or_insert_with(|| {

@@ -22,7 +22,7 @@ impl KnownPde {
     ///
     /// # Errors
     /// If the PDE cannot be read, or there is one for the linear interpolant.
-    pub fn new(
+    pub fn of_grid(
         grid: &UnstructuredGrid,
         options: &ContourOptions,
     ) -> Result<Option<Self>, FilterError> {

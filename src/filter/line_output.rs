@@ -5,14 +5,15 @@ use std::ops::Range;
 
 use super::output::{Output, OutputPoint};
 use super::resample::Stencil;
+use super::solution::Domain;
 use crate::contour::lines::{ContourLines, LinePoint};
 use crate::interpolant::TriangleCubics;
 use crate::mesh::Vector;
 
 /// Contour lines, and what they came from.
 pub struct LineOutput<'a> {
-    /// The cell of the grid of each triangle.
-    pub parents: &'a [u32],
+    /// The two-dimensional cells.
+    pub domain: &'a Domain<'a, 3>,
     /// The interpolant that was contoured.
     pub interpolant: &'a dyn TriangleCubics,
     /// Its contour lines.
@@ -39,18 +40,14 @@ impl LineOutput<'_> {
             if output.options.segments {
                 for pair in places.windows(2) {
                     output.lines.push(&[number(pair[0]), number(pair[1])]);
-                    output.parents.push(self.parent(self.lines.segment_cells[pair[0]]));
+                    output.parents.push(self.domain.parent(self.lines.segment_cells[pair[0]]));
                 }
             } else if places.len() >= 2 {
                 let points: Vec<i64> = places.iter().map(|&place| number(place)).collect();
                 output.lines.push(&points);
-                output.parents.push(self.parent(self.lines.segment_cells[places[0]]));
+                output.parents.push(self.domain.parent(self.lines.segment_cells[places[0]]));
             }
         }
-    }
-
-    fn parent(&self, triangle: u32) -> u32 {
-        self.parents[triangle as usize]
     }
 
     /// The places of a line's points, without those that rounding to the output's
@@ -73,7 +70,7 @@ impl LineOutput<'_> {
             // a triangle has no fourth point: one without weight stands for it
             stencil: Stencil { points: [a, b, c, c], weights: [s, t, u, 0.0] },
             level: self.lines.levels[level],
-            parent: self.parent(point.cell),
+            parent: self.domain.parent(point.cell),
             gradient: if with_gradient { self.gradient(point) } else { Vector::zeros() },
         }
     }

@@ -1,11 +1,9 @@
 //! Contours as VTK's polygonal data, by the conventions of its contour filter.
 
-use super::chosen_array::ChosenArray;
 use super::resample::{Stencil, interpolate, pick};
+use super::solution::Solution;
 use crate::mesh::Vector;
-use crate::vtk::{
-    ArrayType, AttributeKind, CellArray, DataArray, PolyData, UnstructuredGrid, Values,
-};
+use crate::vtk::{AttributeKind, CellArray, DataArray, PolyData, UnstructuredGrid, Values};
 
 /// What the output holds beside contours and the grid's own data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,11 +50,11 @@ pub struct OutputPoint {
 }
 
 /// Contours in the making.
-pub struct Output<'a> {
-    /// The grid whose data are carried over.
-    pub grid: &'a UnstructuredGrid,
-    /// What was contoured.
-    pub chosen: &'a ChosenArray<'a>,
+pub struct Output {
+    /// What was contoured, as [`Solution::label`](super::Solution::label).
+    pub label: String,
+    /// Whether its values were of single precision.
+    single_values: bool,
     /// What to put out.
     pub options: OutputOptions,
     /// The points.
@@ -69,28 +67,31 @@ pub struct Output<'a> {
     pub parents: Vec<u32>,
 }
 
-impl<'a> Output<'a> {
+impl Output {
     /// No contours yet.
-    pub fn new(
-        grid: &'a UnstructuredGrid,
-        chosen: &'a ChosenArray<'a>,
-        options: OutputOptions,
-    ) -> Self {
-        let (lines, polys) = (CellArray::new(), CellArray::new());
-        Self { grid, chosen, options, points: Vec::new(), lines, polys, parents: Vec::new() }
+    pub fn new(solution: &Solution, options: OutputOptions) -> Self {
+        Self {
+            label: solution.label.clone(),
+            single_values: solution.single,
+            options,
+            points: Vec::new(),
+            lines: CellArray::new(),
+            polys: CellArray::new(),
+            parents: Vec::new(),
+        }
     }
 
-    /// The contours with all data of the grid.
+    /// The contours with all data of the grid that was contoured.
     ///
     /// Point data are interpolated linearly, but for the contoured array itself,
     /// which is exactly the level. Cell data are those of the parent cells, field
     /// data are passed on.
-    pub fn poly_data(self) -> PolyData {
+    pub fn poly_data(self, grid: &UnstructuredGrid) -> PolyData {
         let mut data = PolyData::new(self.coordinates());
-        data.cell_data = pick(&self.grid.cell_data, &self.parents);
+        data.cell_data = pick(&grid.cell_data, &self.parents);
         data.cell_data.push(cell_numbers(self.parents.iter().copied()));
-        data.field_data = self.grid.field_data.clone();
-        self.add_point_data(&mut data);
+        data.field_data = grid.field_data.clone();
+        self.add_point_data(grid, &mut data);
         (data.lines, data.polys) = (self.lines, self.polys);
         data
     }
@@ -104,16 +105,27 @@ impl<'a> Output<'a> {
         }
     }
 
-    fn add_point_data(&self, data: &mut PolyData) {
+    fn add_point_data(&self, grid: &UnstructuredGrid, data: &mut PolyData) {
         let stencils: Vec<Stencil> = self.points.iter().map(|point| point.stencil).collect();
-        data.point_data = interpolate(&self.grid.point_data, &stencils);
-        let levels = self.points.iter().map(|point| point.level).collect();
-        let scalars = exact_levels(self.chosen, levels);
+        data.point_data = interpolate(&grid.point_data, &stencils);
+        let scalars = self.exact_levels();
         let name = scalars.name.clone();
         data.point_data.push(scalars);
         data.point_data.set_active(AttributeKind::Scalars, &name);
         data.point_data.push(cell_numbers(self.points.iter().map(|point| point.parent)));
         self.add_gradients(data);
+    }
+
+    /// The contoured array on the output: exactly the level. Integers become `f64`,
+    /// for levels need not be whole.
+    fn exact_levels(&self) -> DataArray {
+        let levels = self.points.iter().map(|point| point.level);
+        let values = if self.single_values {
+            Values::F32(levels.map(|level| level as f32).collect())
+        } else {
+            Values::F64(levels.collect())
+        };
+        DataArray::new(&self.label, 1, values)
     }
 
     fn add_gradients(&self, data: &mut PolyData) {
@@ -130,17 +142,6 @@ impl<'a> Output<'a> {
             data.point_data.set_active(AttributeKind::Normals, "Normals");
         }
     }
-}
-
-/// The contoured array on the output: exactly the level. Integers become `f64`,
-/// for levels need not be whole.
-fn exact_levels(chosen: &ChosenArray, levels: Vec<f64>) -> DataArray {
-    let values = if chosen.array.array_type() == ArrayType::F32 {
-        Values::F32(levels.into_iter().map(|level| level as f32).collect())
-    } else {
-        Values::F64(levels)
-    };
-    DataArray::new(chosen.label(), 1, values)
 }
 
 fn cell_numbers(cells: impl Iterator<Item = u32>) -> DataArray {

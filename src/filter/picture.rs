@@ -11,8 +11,7 @@ use crate::svg::{Coloured, Picture, Point};
 /// angles, and a curved surface along its mean normal; what lies behind is drawn too.
 pub fn picture(contoured: &Contoured, with_mesh: bool) -> Option<Picture> {
     let Contoured { lines, report, .. } = contoured;
-    let triangles = contoured.triangles.as_ref()?;
-    let mesh = &triangles.mesh;
+    let mesh = contoured.triangles.as_ref()?;
     let view = view_axes(mesh);
     let flat = |point: &Vector| view.map(|axis| axis.dot(point));
     let segment = |edge: &[u32; 2]| edge.map(|point| flat(&mesh.points()[point as usize]));

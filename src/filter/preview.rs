@@ -1,11 +1,14 @@
 //! What contouring a grid would do, without doing it.
 
+use std::borrow::Cow;
+
+use super::contour_filter::prepared;
 use super::error::FilterError;
 use super::gradients::{GradientOrigin, Gradients};
-use super::merge_points::merge_points;
+use super::interpolant::Interpolant;
 use super::options::ContourOptions;
 use super::solution::{Domain, Solution};
-use crate::simplices::{LeftOut, lagrange_grid};
+use crate::simplices::LeftOut;
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid would be contoured, and between which values.
@@ -38,16 +41,11 @@ pub struct Preview {
 /// # Errors
 /// As [`contour`](super::contour()), but for levels.
 pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Preview, FilterError> {
-    let grid = lagrange_grid(grid);
-    let grid = merge_points(&grid, options.merge_points)?;
-    let solution = Solution::new(grid.as_ref(), options)?;
-    let in_triangles = solution.in_triangles(options);
-    let in_tetrahedra = solution.in_tetrahedra(options);
-    let range = solution.range(in_triangles.as_ref(), in_tetrahedra.as_ref())?;
-    let of_triangles = in_triangles.map_or((0, 0), |i| (i.ghosts, i.ranges.unusable()));
-    let of_tetrahedra = in_tetrahedra.map_or((0, 0), |i| (i.ghosts, i.ranges.unusable()));
-    let label = solution.chosen.label();
-    let Solution { triangles, tetrahedra, left_out, .. } = solution;
+    let grid = prepared(Cow::Borrowed(grid), options)?;
+    let Interpolant { solution, interpolation } =
+        Interpolant::new(Solution::of_grid(&grid, options)?, options)?;
+    let (ghosts, unusable) = (interpolation.ghosts(), interpolation.unusable());
+    let Solution { label, triangles, tetrahedra, left_out, .. } = solution;
     let triangle_count = triangles.as_ref().map_or(0, Domain::count);
     let tetrahedron_count = tetrahedra.as_ref().map_or(0, Domain::count);
     let of_solids = tetrahedra.map(|domain| domain.gradients);
@@ -60,9 +58,9 @@ pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Prev
         triangles: triangle_count,
         tetrahedra: tetrahedron_count,
         left_out,
-        unusable: of_triangles.1 + of_tetrahedra.1,
-        ghosts: of_triangles.0 + of_tetrahedra.0,
-        range,
+        unusable,
+        ghosts,
+        range: interpolation.range,
     })
 }
 

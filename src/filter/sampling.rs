@@ -1,8 +1,12 @@
 //! The interpolant at other points: given ones, those of a finer mesh, a regular grid.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
+use super::contour_filter::prepared;
 use super::error::FilterError;
+use super::interpolant::Interpolant;
 use super::options::ContourOptions;
 use super::output::ORIGINAL_CELLS;
 use super::resample::{Stencil, interpolate, pick};
@@ -11,7 +15,7 @@ use crate::interpolant::{
     Pieces, TetrahedronCubics, TriangleCubics, bent_edges_of_tetrahedron, bent_edges_of_triangle,
 };
 use crate::mesh::{PieceEdge, PointLocator, RefinedMesh, RefinedPiece, Vector};
-use crate::simplices::{LeftOut, lagrange_grid};
+use crate::simplices::LeftOut;
 use crate::vtk::{
     AttributeKind, Attributes, DataArray, ImageGrid, PolyData, UnstructuredGrid, Values,
 };
@@ -83,7 +87,7 @@ pub fn sample(
     options: &ContourOptions,
     points: &[Vector],
 ) -> Result<Sampled, FilterError> {
-    let grid = lagrange_grid(grid);
+    let grid = prepared(Cow::Borrowed(grid), options)?;
     Source::with(&grid, options, |source| Ok(source.sampled(points)))
 }
 
@@ -96,7 +100,7 @@ pub fn sample_image(
     options: &ContourOptions,
     counts: [usize; 3],
 ) -> Result<(ImageGrid, Sampled), FilterError> {
-    let grid = lagrange_grid(grid);
+    let grid = prepared(Cow::Borrowed(grid), options)?;
     Source::with(&grid, options, |source| {
         let [low, high] = source.bounds();
         let spacing = [0, 1, 2].map(|axis| match counts[axis] {
@@ -109,7 +113,7 @@ pub fn sample_image(
             _ => low[axis],
         });
         let counts = counts.map(|count| count.max(1));
-        let field_data = source.solution.grid.field_data.clone();
+        let field_data = source.grid.field_data.clone();
         let mut image =
             ImageGrid { origin, spacing, counts, point_data: Attributes::new(), field_data };
         let points: Vec<Vector> = image.points().map(Vector::from).collect();
@@ -128,16 +132,16 @@ pub fn refine(
     options: &ContourOptions,
     refinement: Refinement,
 ) -> Result<RefinedGrid, FilterError> {
-    let grid = lagrange_grid(grid);
+    let grid = prepared(Cow::Borrowed(grid), options)?;
     Source::with(&grid, options, |source| source.refined(refinement))
 }
 
 /// An interpolant, and what it was made of.
 struct Source<'a> {
-    solution: &'a Solution<'a>,
-    triangles: Option<(&'a dyn TriangleCubics, &'a Domain<3>)>,
-    tetrahedra: Option<(&'a dyn TetrahedronCubics, &'a Domain<4>)>,
-    singular: usize,
+    grid: &'a UnstructuredGrid,
+    interpolant: &'a Interpolant<'a>,
+    triangles: Option<(&'a dyn TriangleCubics, &'a Domain<'a, 3>)>,
+    tetrahedra: Option<(&'a dyn TetrahedronCubics, &'a Domain<'a, 4>)>,
 }
 
 impl Source<'_> {
@@ -147,28 +151,25 @@ impl Source<'_> {
         options: &ContourOptions,
         job: impl FnOnce(&Source) -> Result<T, FilterError>,
     ) -> Result<T, FilterError> {
-        let solution = Solution::new(grid, options)?;
-        let (flat, solid) = (solution.in_triangles(options), solution.in_tetrahedra(options));
-        solution.range(flat.as_ref(), solid.as_ref())?;
-        let singular = flat.as_ref().map_or(0, |found| found.singular)
-            + solid.as_ref().map_or(0, |found| found.singular);
-        let triangles = flat.as_ref().map(|found| found.cubics.as_ref());
-        let tetrahedra = solid.as_ref().map(|found| found.cubics.as_ref());
+        let interpolant = Interpolant::new(Solution::of_grid(grid, options)?, options)?;
+        let (flat, solid) = (interpolant.in_triangles(), interpolant.in_tetrahedra());
+        let triangles = flat.as_ref().map(|(cubics, _)| cubics.as_ref());
+        let tetrahedra = solid.as_ref().map(|(cubics, _)| cubics.as_ref());
         job(&Source {
-            solution: &solution,
-            triangles: triangles.zip(solution.triangles.as_ref()),
-            tetrahedra: tetrahedra.zip(solution.tetrahedra.as_ref()),
-            singular,
+            grid,
+            interpolant: &interpolant,
+            triangles: triangles.zip(interpolant.solution.triangles.as_ref()),
+            tetrahedra: tetrahedra.zip(interpolant.solution.tetrahedra.as_ref()),
         })
     }
 
     /// The box around all cells.
     fn bounds(&self) -> [Vector; 2] {
-        let flat = self.solution.triangles.iter().flat_map(|domain| {
+        let flat = self.interpolant.solution.triangles.iter().flat_map(|domain| {
             let corners = domain.mesh.simplices().iter().flatten();
             corners.map(|&point| domain.mesh.points()[point as usize])
         });
-        let solid = self.solution.tetrahedra.iter().flat_map(|domain| {
+        let solid = self.interpolant.solution.tetrahedra.iter().flat_map(|domain| {
             let corners = domain.mesh.simplices().iter().flatten();
             corners.map(|&point| domain.mesh.points()[point as usize])
         });
@@ -224,8 +225,9 @@ impl Source<'_> {
     /// The samples as arrays, and the grid's point data beside them.
     fn with_data(&self, samples: &[Sample], with_mask: bool) -> Sampled {
         let stencils: Vec<Stencil> = samples.iter().map(|sample| sample.2).collect();
-        let mut data = interpolate(&self.solution.grid.point_data, &stencils);
-        let label = self.solution.chosen.label();
+        let mut data = interpolate(&self.grid.point_data, &stencils);
+        let solution = &self.interpolant.solution;
+        let label = solution.label.clone();
         let values: Vec<f64> = samples.iter().map(|sample| sample.0).collect();
         let gradients: Vec<f64> =
             samples.iter().flat_map(|sample| <[f64; 3]>::from(sample.1)).collect();
@@ -241,9 +243,9 @@ impl Source<'_> {
             data,
             label,
             outside: stencils.iter().filter(|stencil| !is_inside(stencil)).count(),
-            singular: self.singular,
-            left_out: self.solution.left_out.clone(),
-            warnings: self.solution.pde_warnings().to_vec(),
+            singular: self.interpolant.interpolation.singular(),
+            left_out: solution.left_out.clone(),
+            warnings: self.interpolant.interpolation.warnings.clone(),
         }
     }
 
@@ -269,7 +271,7 @@ impl Source<'_> {
             let place = |simplex, at| self.at(&Place::Tetrahedron(simplex, at));
             made.add(domain, refinement, TETRAHEDRON, marked, place)?;
         }
-        let from = self.solution.grid;
+        let from = self.grid;
         let sampled = self.with_data(&made.samples, false);
         let coordinates: Vec<f64> =
             made.points.iter().flat_map(|point| <[f64; 3]>::from(*point)).collect();
@@ -330,7 +332,7 @@ impl Made {
         for piece in &refined.pieces {
             let corners = piece.corners.iter().map(|&corner| first + i64::from(corner));
             self.cells.push((kind, corners.collect()));
-            self.parents.push(domain.parents[piece.parent as usize]);
+            self.parents.push(domain.parent(piece.parent));
         }
         let samples = refined.places.par_iter().map(|place| at(place.simplex as usize, place.at));
         self.samples.extend(samples.collect::<Vec<Sample>>());

@@ -1,74 +1,130 @@
-//! A finite-element solution taken from a grid: cells, values, gradients, PDE.
+//! A finite-element solution: cells, values, gradients, PDE.
 
-use super::cells::{Cells, Part, is_ghost};
+use std::borrow::Cow;
+
+use super::cells::{Cells, Part, ghosts};
 use super::chosen_array::ChosenArray;
 use super::error::FilterError;
-use super::gradients::Gradients;
+use super::gradients::{GradientOrigin, Gradients};
 use super::known_pde::KnownPde;
 use super::options::{ContourOptions, InterpolantKind};
+use crate::contour::CellRanges;
 use crate::field::Field;
-use crate::mesh::SimplexMesh;
+use crate::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh};
 use crate::simplices::LeftOut;
-use crate::vtk::UnstructuredGrid;
+use crate::vtk::{ArrayType, UnstructuredGrid};
 
-/// What of a grid is contoured.
+/// A solution that can be contoured: its own arrays, or views of arrays that live elsewhere.
 pub struct Solution<'a> {
-    /// The grid.
-    pub grid: &'a UnstructuredGrid,
-    /// The array.
-    pub chosen: ChosenArray<'a>,
+    /// What it is called, such as `u` or `|velocity|`.
+    pub label: String,
+    /// Whether its values were of single precision, as levels in the output are then.
+    pub single: bool,
     /// One value a point.
-    pub values: Vec<f64>,
+    pub values: Cow<'a, [f64]>,
     /// The two-dimensional cells, which have contour lines.
-    pub triangles: Option<Domain<3>>,
+    pub triangles: Option<Domain<'a, 3>>,
     /// The solids, which have iso-surfaces.
-    pub tetrahedra: Option<Domain<4>>,
+    pub tetrahedra: Option<Domain<'a, 4>>,
     /// Cells that cannot be split into simplices.
     pub left_out: LeftOut,
     /// The PDE, if it is known.
     pub pde: Option<KnownPde>,
+    /// The length of the diagonal of the box around all cells: of the larger one, where
+    /// there are two kinds.
+    pub diagonal: f64,
 }
 
 /// The cells of one dimension, as simplices, and the gradients there.
 #[derive(Clone, Debug)]
-pub struct Domain<const CORNERS: usize> {
-    /// The simplices, with all the grid's points.
-    pub mesh: SimplexMesh<CORNERS>,
-    /// The cell of the grid that each simplex came from.
-    pub parents: Vec<u32>,
+pub struct Domain<'a, const CORNERS: usize> {
+    /// The simplices, with all points of the solution.
+    pub mesh: SimplexMesh<'a, CORNERS>,
+    /// The cell that each simplex came from; nothing if the simplices are the cells.
+    pub parents: Option<Vec<u32>>,
+    /// Whether each simplex belongs to another process, which contours it; nothing if none
+    /// does.
+    pub ghosts: Option<Vec<bool>>,
     /// One gradient a point; none for the linear interpolant.
-    pub gradients: Gradients,
+    pub gradients: Gradients<'a>,
 }
 
-impl<'a> Solution<'a> {
+/// What values without a name are called, as in a PDE.
+pub const SOLUTION: &str = "u";
+
+impl Solution<'static> {
     /// Takes from a grid what the options name. Bézier cells of order two have to be
     /// Lagrange cells by now, see [`lagrange_grid`](crate::simplices::lagrange_grid).
     ///
     /// # Errors
     /// If an array is missing or does not fit, the PDE cannot be read, or the grid
     /// has no cells that can be contoured.
-    pub fn new(grid: &'a UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
+    pub fn of_grid(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
-        let pde = KnownPde::new(grid, options)?;
+        let pde = KnownPde::of_grid(grid, options)?;
         let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
         if triangles.is_none() && tetrahedra.is_none() {
             let cells = grid.types.iter().copied().collect();
             return Err(FilterError::NoCells { cells, left_out });
         }
         let values = chosen.values();
-        let triangles = Domain::new(grid, triangles, &chosen, &values, options)?;
-        let tetrahedra = Domain::new(grid, tetrahedra, &chosen, &values, options)?;
-        Ok(Self { grid, chosen, values, triangles, tetrahedra, left_out, pde })
+        let triangles = Domain::of_grid(grid, triangles, &chosen, &values, options)?;
+        let tetrahedra = Domain::of_grid(grid, tetrahedra, &chosen, &values, options)?;
+        let diagonal = diagonal(triangles.as_ref()).max(diagonal(tetrahedra.as_ref()));
+        let (label, single) = (chosen.label(), chosen.array.array_type() == ArrayType::F32);
+        let values = values.into();
+        Ok(Self { label, single, values, triangles, tetrahedra, left_out, pde, diagonal })
+    }
+}
+
+impl<'a> Solution<'a> {
+    /// Values and gradients on triangles: of arrays, which are not copied.
+    ///
+    /// # Errors
+    /// If there is not one value a point, or not one gradient (unless there are none, for
+    /// the linear interpolant).
+    pub fn of_triangles(
+        mesh: TriangleMesh<'a>,
+        values: &'a [f64],
+        gradients: Gradients<'a>,
+        pde: Option<KnownPde>,
+    ) -> Result<Self, FilterError> {
+        let domain = Domain::of_arrays(mesh, values, gradients)?;
+        let diagonal = domain.mesh.diagonal();
+        Ok(Self { triangles: Some(domain), ..Self::of_values(values, pde, diagonal) })
     }
 
-    /// The length of the diagonal of the box around all cells: of the larger one, where
-    /// there are two kinds.
-    pub fn diagonal(&self) -> f64 {
-        let of_triangles = self.triangles.as_ref().map_or(0.0, |domain| domain.mesh.diagonal());
-        let of_tetrahedra = self.tetrahedra.as_ref().map_or(0.0, |domain| domain.mesh.diagonal());
-        of_triangles.max(of_tetrahedra)
+    /// Values and gradients in tetrahedra: of arrays, which are not copied.
+    ///
+    /// # Errors
+    /// As [`Solution::of_triangles`].
+    pub fn of_tetrahedra(
+        mesh: TetrahedronMesh<'a>,
+        values: &'a [f64],
+        gradients: Gradients<'a>,
+        pde: Option<KnownPde>,
+    ) -> Result<Self, FilterError> {
+        let domain = Domain::of_arrays(mesh, values, gradients)?;
+        let diagonal = domain.mesh.diagonal();
+        Ok(Self { tetrahedra: Some(domain), ..Self::of_values(values, pde, diagonal) })
     }
 
+    /// Values without cells.
+    fn of_values(values: &'a [f64], pde: Option<KnownPde>, diagonal: f64) -> Self {
+        Self {
+            label: SOLUTION.to_owned(),
+            single: false,
+            values: values.into(),
+            triangles: None,
+            tetrahedra: None,
+            left_out: LeftOut::default(),
+            pde,
+            diagonal,
+        }
+    }
+}
+
+impl Solution<'_> {
     /// Values and gradients on a domain.
     pub fn field<'b, const CORNERS: usize>(&'b self, domain: &'b Domain<CORNERS>) -> Field<'b> {
         Field { values: &self.values, gradients: &domain.gradients.vectors }
@@ -79,9 +135,16 @@ impl<'a> Solution<'a> {
         &'b self,
         domain: &'b Domain<CORNERS>,
     ) -> impl Iterator<Item = f64> + 'b {
-        let cells = domain.mesh.simplices().iter().zip(&domain.parents);
-        let used = cells.filter(|(_, parent)| !is_ghost(self.grid, **parent));
-        used.flat_map(|(corners, _)| corners.map(|point| self.values[point as usize]))
+        let cells = domain.mesh.simplices().iter().enumerate();
+        let used = cells.filter(|(simplex, _)| !domain.is_ghost(*simplex));
+        used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
+    }
+
+    /// Where the gradient came from: in solids, if there are any.
+    pub fn gradient_origin(&self) -> GradientOrigin {
+        let in_triangles = self.triangles.as_ref().map(|domain| &domain.gradients.origin);
+        let in_tetrahedra = self.tetrahedra.as_ref().map(|domain| &domain.gradients.origin);
+        in_tetrahedra.or(in_triangles).cloned().unwrap_or(GradientOrigin::Unused)
     }
 
     /// What people should know about the PDE's parameters, a line each.
@@ -90,13 +153,12 @@ impl<'a> Solution<'a> {
     }
 }
 
-impl<const CORNERS: usize> Domain<CORNERS> {
-    /// How many simplices there are.
-    pub fn count(&self) -> usize {
-        self.mesh.simplices().len()
-    }
+fn diagonal<const CORNERS: usize>(domain: Option<&Domain<CORNERS>>) -> f64 {
+    domain.map_or(0.0, |domain| domain.mesh.diagonal())
+}
 
-    fn new(
+impl<const CORNERS: usize> Domain<'static, CORNERS> {
+    fn of_grid(
         grid: &UnstructuredGrid,
         part: Option<Part<CORNERS>>,
         chosen: &ChosenArray,
@@ -108,6 +170,46 @@ impl<const CORNERS: usize> Domain<CORNERS> {
             InterpolantKind::Linear => Gradients::none(),
             InterpolantKind::Pci => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
         };
-        Ok(Some(Self { mesh, parents, gradients }))
+        let ghosts = ghosts(grid, &parents);
+        Ok(Some(Self { mesh, parents: Some(parents), ghosts, gradients }))
+    }
+}
+
+impl<'a, const CORNERS: usize> Domain<'a, CORNERS> {
+    fn of_arrays(
+        mesh: SimplexMesh<'a, CORNERS>,
+        values: &[f64],
+        gradients: Gradients<'a>,
+    ) -> Result<Self, FilterError> {
+        let points = mesh.points().len();
+        let vectors = gradients.vectors.len();
+        let given = [("values", values.len(), false), ("gradients", vectors, vectors == 0)];
+        for (what, count, may_lack) in given {
+            if count != points && !may_lack {
+                return Err(FilterError::NotOneAPoint { what, count, points });
+            }
+        }
+        Ok(Self { mesh, parents: None, ghosts: None, gradients })
+    }
+}
+
+impl<const CORNERS: usize> Domain<'_, CORNERS> {
+    /// How many simplices there are.
+    pub fn count(&self) -> usize {
+        self.mesh.simplices().len()
+    }
+
+    /// The cell that a simplex came from.
+    pub fn parent(&self, simplex: u32) -> u32 {
+        self.parents.as_ref().map_or(simplex, |parents| parents[simplex as usize])
+    }
+
+    /// Leaves out the cells of other processes; returns how many simplices that are.
+    pub fn exclude_ghosts(&self, ranges: &mut CellRanges) -> usize {
+        if self.ghosts.is_none() { 0 } else { ranges.exclude(|simplex| self.is_ghost(simplex)) }
+    }
+
+    fn is_ghost(&self, simplex: usize) -> bool {
+        self.ghosts.as_ref().is_some_and(|ghosts| ghosts[simplex])
     }
 }

@@ -2,14 +2,15 @@
 
 use super::output::{Output, OutputPoint};
 use super::resample::Stencil;
+use super::solution::Domain;
 use crate::contour::surface::ContourSurface;
 use crate::interpolant::TetrahedronCubics;
 use crate::mesh::{TetrahedronFrame, Vector};
 
 /// Iso-surfaces, and what they came from.
 pub struct SurfaceOutput<'a> {
-    /// The cell of the grid of each tetrahedron.
-    pub parents: &'a [u32],
+    /// The solids.
+    pub domain: &'a Domain<'a, 4>,
     /// The interpolant that was contoured.
     pub interpolant: &'a dyn TetrahedronCubics,
     /// Its surfaces.
@@ -32,14 +33,14 @@ impl SurfaceOutput<'_> {
                         weights: point.at,
                     },
                     level,
-                    parent: self.parents[cell],
+                    parent: self.domain.parent(point.cell),
                     gradient: gradients.as_ref().map_or(Vector::zeros(), |all| all[number]),
                 });
             }
         }
         for (triangle, &cell) in self.surface.triangles.iter().zip(&self.surface.cells) {
             output.polys.push(&triangle.map(|point| first + i64::from(point)));
-            output.parents.push(self.parents[cell as usize]);
+            output.parents.push(self.domain.parent(cell));
         }
     }
 

@@ -9,13 +9,13 @@ use crate::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh};
 /// comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear<'a, const CORNERS: usize> {
-    mesh: &'a SimplexMesh<CORNERS>,
+    mesh: &'a SimplexMesh<'a, CORNERS>,
     values: &'a [f64],
 }
 
 impl<'a, const CORNERS: usize> Linear<'a, CORNERS> {
     /// The linear interpolant of one value a point.
-    pub fn new(mesh: &'a SimplexMesh<CORNERS>, values: &'a [f64]) -> Self {
+    pub fn new(mesh: &'a SimplexMesh<'a, CORNERS>, values: &'a [f64]) -> Self {
         Self { mesh, values }
     }
 
@@ -26,7 +26,7 @@ impl<'a, const CORNERS: usize> Linear<'a, CORNERS> {
 }
 
 impl TriangleCubics for Linear<'_, 3> {
-    fn mesh(&self) -> &TriangleMesh {
+    fn mesh(&self) -> &TriangleMesh<'_> {
         self.mesh
     }
 
@@ -36,7 +36,7 @@ impl TriangleCubics for Linear<'_, 3> {
 }
 
 impl TetrahedronCubics for Linear<'_, 4> {
-    fn mesh(&self) -> &TetrahedronMesh {
+    fn mesh(&self) -> &TetrahedronMesh<'_> {
         self.mesh
     }
 

@@ -18,10 +18,10 @@ mod tricubic;
 pub use bent_edges::{bent_edges_of_tetrahedron, bent_edges_of_triangle};
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
-pub use pci::Pci;
+pub use pci::{Centres, Pci};
 pub use pde_fit::PdeFit;
 pub use pieces::{Pieces, Taylor};
-pub use tricubic::Tricubic;
+pub use tricubic::{FaceCoefficients, Tricubic};
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::mesh::{TetrahedronMesh, TriangleMesh};
@@ -32,7 +32,7 @@ use crate::mesh::{TetrahedronMesh, TriangleMesh};
 /// same numbers, to the last bit, in both triangles that share it.
 pub trait TriangleCubics: Sync {
     /// The triangles.
-    fn mesh(&self) -> &TriangleMesh;
+    fn mesh(&self) -> &TriangleMesh<'_>;
 
     /// The cubic on a triangle.
     fn cubic(&self, triangle: usize) -> TriangleCubic;
@@ -44,7 +44,7 @@ pub trait TriangleCubics: Sync {
 /// numbers, to the last bit, in both tetrahedra that share it.
 pub trait TetrahedronCubics: Sync {
     /// The tetrahedra.
-    fn mesh(&self) -> &TetrahedronMesh;
+    fn mesh(&self) -> &TetrahedronMesh<'_>;
 
     /// The cubic on a tetrahedron, its coefficients in the order of the mesh's corners.
     fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic;

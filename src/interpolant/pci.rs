@@ -14,6 +14,8 @@
 //! applied to the tangential Hessian, and `uxx + uyy + uzz` is the surface
 //! Laplacian.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::TriangleCubics;
@@ -26,10 +28,16 @@ use crate::pde::LANES;
 /// The pure cubic interpolant of a field on a mesh of triangles.
 #[derive(Clone, Debug)]
 pub struct Pci<'a> {
-    mesh: &'a TriangleMesh,
+    mesh: &'a TriangleMesh<'a>,
     field: Field<'a>,
-    /// `b_111` of each triangle: all that is not read off the field.
-    centres: Vec<f64>,
+    centres: Cow<'a, Centres>,
+}
+
+/// What of a pure cubic interpolant is not read off the field.
+#[derive(Clone, Debug)]
+pub struct Centres {
+    /// `b_111` of each triangle.
+    coefficients: Vec<f64>,
     singular: usize,
 }
 
@@ -47,13 +55,13 @@ impl<'a> Pci<'a> {
     /// The interpolant of values and gradients alone. It reproduces quadratics.
     ///
     /// `field` has one value and one gradient for each point of `mesh`.
-    pub fn new(mesh: &'a TriangleMesh, field: Field<'a>) -> Self {
-        let centres = (0..mesh.triangles().len())
+    pub fn new(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
+        let coefficients = (0..mesh.triangles().len())
             .into_par_iter()
             .map(|triangle| quadratic_precision(mesh, &field, triangle))
             .map(|cubic| cubic.coefficients[TriangleCubic::CENTRE])
             .collect();
-        Self { mesh, field, centres, singular: 0 }
+        Self { mesh, field, centres: Cow::Owned(Centres { coefficients, singular: 0 }) }
     }
 
     /// The interpolant that also satisfies a PDE at the centroid of each triangle.
@@ -61,31 +69,42 @@ impl<'a> Pci<'a> {
     /// It reproduces any cubic that solves the PDE, if `g` does not depend on the
     /// solution. Where the collocation is singular (see [`Pci::singular`]) the PDE is
     /// left out.
-    pub fn with_pde(mesh: &'a TriangleMesh, field: Field<'a>, equation: &Equation) -> Self {
+    pub fn with_pde(mesh: &'a TriangleMesh<'a>, field: Field<'a>, equation: &Equation) -> Self {
         let triangles: Vec<usize> = (0..mesh.triangles().len()).collect();
         let collocated: Vec<(f64, bool)> = triangles
             .par_chunks(CHUNK)
             .flat_map_iter(|chunk| collocate(mesh, &field, equation, chunk))
             .collect();
         let singular = collocated.iter().filter(|(_, singular)| *singular).count();
-        let centres = collocated.into_iter().map(|(centre, _)| centre).collect();
-        Self { mesh, field, centres, singular }
+        let coefficients = collocated.into_iter().map(|(centre, _)| centre).collect();
+        Self { mesh, field, centres: Cow::Owned(Centres { coefficients, singular }) }
+    }
+
+    /// The interpolant of which the centres are known: those of one of the same mesh and
+    /// field.
+    pub fn with_centres(mesh: &'a TriangleMesh, field: Field<'a>, centres: &'a Centres) -> Self {
+        Self { mesh, field, centres: Cow::Borrowed(centres) }
+    }
+
+    /// The centres, to make the same interpolant of later.
+    pub fn into_centres(self) -> Centres {
+        self.centres.into_owned()
     }
 
     /// How many triangles could not use the PDE, because it does not determine
     /// `b_111` there or is not a finite number. They reproduce quadratics instead.
     pub fn singular(&self) -> usize {
-        self.singular
+        self.centres.singular
     }
 }
 
 impl TriangleCubics for Pci<'_> {
-    fn mesh(&self) -> &TriangleMesh {
+    fn mesh(&self) -> &TriangleMesh<'_> {
         self.mesh
     }
 
     fn cubic(&self, triangle: usize) -> TriangleCubic {
-        hermite(self.mesh, &self.field, triangle, self.centres[triangle])
+        hermite(self.mesh, &self.field, triangle, self.centres.coefficients[triangle])
     }
 }
 

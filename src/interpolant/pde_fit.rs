@@ -6,7 +6,6 @@
 //! is wrong, and 1/2 if a factor 2 is. One triangle says little, least on a coarse
 //! mesh; most of them together say much.
 
-use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 use super::TriangleCubics;
@@ -44,14 +43,7 @@ impl Comparison {
 /// The terms of `L p` at the centroid: `uxx, uyy, uzz, uxy, uxz, uyz` with their
 /// coefficients.
 fn terms(cubic: &TriangleCubic, frame: &TriangleFrame, operator: &[f64; 6]) -> [f64; 6] {
-    let by_barycentric = cubic.barycentric_hessian(&CENTROID);
-    let gradients = frame.barycentric_gradients();
-    let mut hessian = Matrix3::zeros();
-    for i in 0..3 {
-        for j in 0..3 {
-            hessian += gradients[i] * gradients[j].transpose() * by_barycentric[i][j];
-        }
-    }
+    let hessian = frame.hessian(&cubic.barycentric_hessian(&CENTROID));
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     [0, 1, 2, 3, 4, 5].map(|n| operator[n] * hessian[places[n]])
 }

@@ -8,7 +8,7 @@ use crate::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
 /// One polynomial a cell, of whatever degree. Neighbours need not agree.
 pub trait Pieces<const CORNERS: usize>: Sync {
     /// The cells.
-    fn mesh(&self) -> &SimplexMesh<CORNERS>;
+    fn mesh(&self) -> &SimplexMesh<'_, CORNERS>;
 
     /// Value and derivatives of a cell's polynomial, at a place given by the weights of
     /// its corners.
@@ -49,7 +49,7 @@ impl Taylor {
 
 /// Cubics are pieces.
 impl<T: TriangleCubics + ?Sized> Pieces<3> for T {
-    fn mesh(&self) -> &TriangleMesh {
+    fn mesh(&self) -> &TriangleMesh<'_> {
         TriangleCubics::mesh(self)
     }
 
@@ -63,7 +63,7 @@ impl<T: TriangleCubics + ?Sized> Pieces<3> for T {
 
 /// Cubics are pieces.
 impl<T: TetrahedronCubics + ?Sized> Pieces<4> for T {
-    fn mesh(&self) -> &TetrahedronMesh {
+    fn mesh(&self) -> &TetrahedronMesh<'_> {
         TetrahedronCubics::mesh(self)
     }
 

@@ -10,6 +10,8 @@
 //! are reproduced. With one, the numbers of all faces are chosen together to meet the
 //! equations of all tetrahedra as well as possible, by least squares.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::TetrahedronCubics;
@@ -28,10 +30,16 @@ use crate::pde::LANES;
 /// tetrahedra keep their shape.
 #[derive(Clone, Debug)]
 pub struct Tricubic<'a> {
-    mesh: &'a TetrahedronMesh,
+    mesh: &'a TetrahedronMesh<'a>,
     field: Field<'a>,
+    faces: Cow<'a, FaceCoefficients>,
+}
+
+/// What of a tri-cubic interpolant is not read off the field.
+#[derive(Clone, Debug, Default)]
+pub struct FaceCoefficients {
     /// With a PDE: the coefficients amid the faces of each tetrahedron.
-    faces: Option<Vec<[f64; 4]>>,
+    coefficients: Option<Vec<[f64; 4]>>,
     singular: usize,
 }
 
@@ -43,8 +51,8 @@ impl<'a> Tricubic<'a> {
     ///
     /// `field` has one value and one gradient for each point of `mesh`. Nothing is
     /// stored: all coefficients are read off the field.
-    pub fn new(mesh: &'a TetrahedronMesh, field: Field<'a>) -> Self {
-        Self { mesh, field, faces: None, singular: 0 }
+    pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
+        Self { mesh, field, faces: Cow::Owned(FaceCoefficients::default()) }
     }
 
     /// The interpolant that also satisfies a PDE, as well as one cubic a tetrahedron can
@@ -53,7 +61,7 @@ impl<'a> Tricubic<'a> {
     /// It reproduces quadratics if they solve the PDE, and any cubic that solves it if
     /// the PDE determines it (the Laplacian does) and `g` does not depend on the
     /// solution. It is the same for any number of threads.
-    pub fn with_pde(mesh: &'a TetrahedronMesh, field: Field<'a>, equation: &Equation) -> Self {
+    pub fn with_pde(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, equation: &Equation) -> Self {
         let tetrahedra: Vec<usize> = (0..mesh.tetrahedra().len()).collect();
         let equations: Vec<Option<FaceEquations>> = tetrahedra
             .par_chunks(CHUNK)
@@ -70,25 +78,41 @@ impl<'a> Tricubic<'a> {
                 start.coefficients[position] + corrections[faces[opposite] as usize]
             })
         };
-        let faces = numbered.of_tetrahedra().par_iter().enumerate().map(corrected).collect();
-        Self { mesh, field, faces: Some(faces), singular }
+        let coefficients = numbered.of_tetrahedra().par_iter().enumerate().map(corrected).collect();
+        let faces = FaceCoefficients { coefficients: Some(coefficients), singular };
+        Self { mesh, field, faces: Cow::Owned(faces) }
+    }
+
+    /// The interpolant of which the faces' coefficients are known: those of one of the same
+    /// mesh and field.
+    pub fn with_faces(
+        mesh: &'a TetrahedronMesh,
+        field: Field<'a>,
+        faces: &'a FaceCoefficients,
+    ) -> Self {
+        Self { mesh, field, faces: Cow::Borrowed(faces) }
+    }
+
+    /// The faces' coefficients, to make the same interpolant of later.
+    pub fn into_faces(self) -> FaceCoefficients {
+        self.faces.into_owned()
     }
 
     /// How many tetrahedra could not use the PDE, because it says nothing of the face
     /// coefficients there or is not a finite number. Their faces follow the neighbours;
     /// a face of such tetrahedra alone reproduces quadratics.
     pub fn singular(&self) -> usize {
-        self.singular
+        self.faces.singular
     }
 }
 
 impl TetrahedronCubics for Tricubic<'_> {
-    fn mesh(&self) -> &TetrahedronMesh {
+    fn mesh(&self) -> &TetrahedronMesh<'_> {
         self.mesh
     }
 
     fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic {
-        match &self.faces {
+        match &self.faces.coefficients {
             Some(faces) => hermite(self.mesh, &self.field, tetrahedron, faces[tetrahedron]),
             None => quadratic_precision(self.mesh, &self.field, tetrahedron),
         }

@@ -1,5 +1,7 @@
 //! The geometry of one triangle: its plane and its barycentric gradients.
 
+use nalgebra::Matrix3;
+
 use super::Vector;
 use crate::bernstein::Barycentric;
 
@@ -76,6 +78,14 @@ impl TriangleFrame {
     pub fn gradient(&self, barycentric: &[f64; 3]) -> Vector {
         let [g0, g1, g2] = &self.barycentric_gradients;
         g0 * barycentric[0] + g1 * barycentric[1] + g2 * barycentric[2]
+    }
+
+    /// The second derivatives in space along the triangle's plane, from those by barycentric
+    /// coordinates.
+    pub fn hessian(&self, barycentric: &[[f64; 3]; 3]) -> Matrix3<f64> {
+        let rows = barycentric.map(|row| self.gradient(&row));
+        let pairs = self.barycentric_gradients.iter().zip(rows);
+        pairs.map(|(gradient, row)| gradient * row.transpose()).sum()
     }
 }
 

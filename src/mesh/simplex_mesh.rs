@@ -1,23 +1,27 @@
 //! Points and the simplices between them: triangles or tetrahedra.
 
+use std::borrow::Cow;
+
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::Vector;
 use super::frame::TriangleFrame;
 use super::tetrahedron_frame::TetrahedronFrame;
 
-/// Points in space and simplices of `CORNERS` corners each.
+/// Points in space and simplices of `CORNERS` corners each: its own, or a view of arrays
+/// that live elsewhere.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SimplexMesh<const CORNERS: usize> {
-    points: Vec<Vector>,
-    simplices: Vec<[u32; CORNERS]>,
+pub struct SimplexMesh<'a, const CORNERS: usize> {
+    points: Cow<'a, [Vector]>,
+    simplices: Cow<'a, [[u32; CORNERS]]>,
 }
 
 /// Points in space and the triangles between them.
-pub type TriangleMesh = SimplexMesh<3>;
+pub type TriangleMesh<'a> = SimplexMesh<'a, 3>;
 
 /// Points in space and the tetrahedra between them.
-pub type TetrahedronMesh = SimplexMesh<4>;
+pub type TetrahedronMesh<'a> = SimplexMesh<'a, 4>;
 
 /// Why points and simplices do not make a mesh.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -34,18 +38,35 @@ pub enum MeshError {
     },
 }
 
-impl<const CORNERS: usize> SimplexMesh<CORNERS> {
+impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     /// A mesh of `points` and `simplices` (the indices of their corners).
     ///
     /// # Errors
     /// [`MeshError::PointOutOfRange`] if a simplex names a point that is not there.
     pub fn new(points: Vec<Vector>, simplices: Vec<[u32; CORNERS]>) -> Result<Self, MeshError> {
-        for (simplex, corners) in simplices.iter().enumerate() {
-            if let Some(&point) = corners.iter().find(|&&point| point as usize >= points.len()) {
-                return Err(MeshError::PointOutOfRange { simplex, point, points: points.len() });
+        Self { points: points.into(), simplices: simplices.into() }.checked()
+    }
+
+    /// The same of arrays that stay where they are: nothing is copied.
+    ///
+    /// # Errors
+    /// As [`SimplexMesh::new`].
+    pub fn view(points: &'a [Vector], simplices: &'a [[u32; CORNERS]]) -> Result<Self, MeshError> {
+        Self { points: points.into(), simplices: simplices.into() }.checked()
+    }
+
+    fn checked(self) -> Result<Self, MeshError> {
+        let points = self.points.len();
+        let beyond = |corners: &[u32; CORNERS]| {
+            corners.iter().copied().find(|&point| point as usize >= points)
+        };
+        match self.simplices.par_iter().position_first(|corners| beyond(corners).is_some()) {
+            None => Ok(self),
+            Some(simplex) => {
+                let point = beyond(&self.simplices[simplex]).unwrap_or_default();
+                Err(MeshError::PointOutOfRange { simplex, point, points })
             }
         }
-        Ok(Self { points, simplices })
     }
 
     /// The points.
@@ -86,7 +107,7 @@ impl<const CORNERS: usize> SimplexMesh<CORNERS> {
     }
 }
 
-impl TriangleMesh {
+impl TriangleMesh<'_> {
     /// The triangles, as indices of their points.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.simplices
@@ -98,7 +119,7 @@ impl TriangleMesh {
     }
 }
 
-impl TetrahedronMesh {
+impl TetrahedronMesh<'_> {
     /// The tetrahedra, as indices of their points.
     pub fn tetrahedra(&self) -> &[[u32; 4]] {
         &self.simplices

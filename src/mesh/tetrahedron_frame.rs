@@ -1,5 +1,7 @@
 //! The geometry of one tetrahedron: its barycentric gradients.
 
+use nalgebra::Matrix3;
+
 use super::Vector;
 use crate::bernstein::Barycentric4;
 
@@ -64,6 +66,13 @@ impl TetrahedronFrame {
     /// The gradient in space, from derivatives by barycentric coordinates.
     pub fn gradient(&self, barycentric: &[f64; 4]) -> Vector {
         combine(&self.barycentric_gradients, barycentric)
+    }
+
+    /// The second derivatives in space, from those by barycentric coordinates.
+    pub fn hessian(&self, barycentric: &[[f64; 4]; 4]) -> Matrix3<f64> {
+        let rows = barycentric.map(|row| self.gradient(&row));
+        let pairs = self.barycentric_gradients.iter().zip(rows);
+        pairs.map(|(gradient, row)| gradient * row.transpose()).sum()
     }
 }
 

@@ -33,7 +33,7 @@ impl Domain {
 
     /// A mesh of about the width `h`: equilateral triangles inside, their corners moved by
     /// up to a fifth of it.
-    pub fn mesh(&self, random: &mut Random, h: f64) -> TriangleMesh {
+    pub fn mesh(&self, random: &mut Random, h: f64) -> TriangleMesh<'static> {
         let mut points: Vec<[f64; 2]> = self.sides().flat_map(|side| divided(side, h)).collect();
         let edge = points.len();
         let rows = (3.0 / h) as i32;

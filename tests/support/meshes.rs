@@ -20,7 +20,7 @@ impl Random {
 }
 
 /// The Delaunay mesh of the corners of the unit square and `count` random points in it.
-pub fn random_square(random: &mut Random, count: usize) -> TriangleMesh {
+pub fn random_square(random: &mut Random, count: usize) -> TriangleMesh<'static> {
     let mut points = vec![Point2::new(0.0, 0.0), Point2::new(1.0, 0.0)];
     points.extend([Point2::new(0.0, 1.0), Point2::new(1.0, 1.0)]);
     for _ in 0..count {
@@ -30,7 +30,7 @@ pub fn random_square(random: &mut Random, count: usize) -> TriangleMesh {
 }
 
 /// The Delaunay mesh of points.
-pub fn delaunay(points: Vec<Point2<f64>>) -> TriangleMesh {
+pub fn delaunay(points: Vec<Point2<f64>>) -> TriangleMesh<'static> {
     let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(points).unwrap();
     let points = triangulation.vertices().map(|v| Vector::new(v.position().x, v.position().y, 0.0));
     let points: Vec<Vector> = points.collect();
@@ -42,7 +42,7 @@ pub fn delaunay(points: Vec<Point2<f64>>) -> TriangleMesh {
 }
 
 /// The unit square as `n` by `n` squares, each cut into two triangles.
-pub fn grid(n: usize) -> TriangleMesh {
+pub fn grid(n: usize) -> TriangleMesh<'static> {
     let at = |k: usize| k as f64 / n as f64;
     let points = (0..=n).flat_map(|j| (0..=n).map(move |i| Vector::new(at(i), at(j), 0.0)));
     let corner = |i: usize, j: usize| (j * (n + 1) + i) as u32;

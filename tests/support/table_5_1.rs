@@ -84,7 +84,7 @@ impl Points {
     }
 
     /// A Delaunay mesh of about so many points.
-    pub fn mesh(self, count: usize, seed: u64) -> TriangleMesh {
+    pub fn mesh(self, count: usize, seed: u64) -> TriangleMesh<'static> {
         let mut random = Random(seed);
         match self {
             Self::Random => random_square(&mut random, count - 4),
@@ -97,7 +97,7 @@ impl Points {
     }
 }
 
-fn with_sides(random: &mut Random, count: usize) -> TriangleMesh {
+fn with_sides(random: &mut Random, count: usize) -> TriangleMesh<'static> {
     let side = (count as f64).sqrt().round() as usize - 2;
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mut points = corners.to_vec();

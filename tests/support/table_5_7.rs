@@ -76,7 +76,7 @@ pub fn rows() -> Vec<Row> {
     rows
 }
 
-fn mesh(points: usize) -> TriangleMesh {
+fn mesh(points: usize) -> TriangleMesh<'static> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let file = VtuFile::open(folder.join(format!("problem4_{points}.vtu")));
     let grid = file.and_then(|file| file.read(&Selection::none())).expect("the mesh is there").data;

@@ -17,17 +17,17 @@ pub fn cube_corner(number: u32) -> Vector {
 
 /// The Delaunay mesh of the corners of the unit cube and random points in it, `count`
 /// points in all, as in the thesis' section 5.2.2.
-pub fn random_cube(random: &mut Random, count: usize) -> TetrahedronMesh {
+pub fn random_cube(random: &mut Random, count: usize) -> TetrahedronMesh<'static> {
     cube_of(count, || Vector::from([(); 3].map(|()| random.uniform(0.0, 1.0))))
 }
 
 /// As [`random_cube`], with many more points towards the corner at the origin: tetrahedra
 /// of all sizes, many of them thin.
-pub fn graded_cube(random: &mut Random, count: usize) -> TetrahedronMesh {
+pub fn graded_cube(random: &mut Random, count: usize) -> TetrahedronMesh<'static> {
     cube_of(count, || Vector::from([(); 3].map(|()| random.uniform(0.0, 1.0).powi(3))))
 }
 
-fn cube_of(count: usize, mut point: impl FnMut() -> Vector) -> TetrahedronMesh {
+fn cube_of(count: usize, mut point: impl FnMut() -> Vector) -> TetrahedronMesh<'static> {
     let mut delaunay = Delaunay::new();
     for _ in 8..count {
         delaunay.insert(point());
@@ -38,7 +38,7 @@ fn cube_of(count: usize, mut point: impl FnMut() -> Vector) -> TetrahedronMesh {
 
 /// The unit cube as `n` by `n` by `n` cubes, each cut into six tetrahedra alike, so that
 /// neighbours agree on their common faces.
-pub fn kuhn_grid(n: usize) -> TetrahedronMesh {
+pub fn kuhn_grid(n: usize) -> TetrahedronMesh<'static> {
     let at = |k: usize| k as f64 / n as f64;
     let side = n + 1;
     let points = (0..side.pow(3))
@@ -56,7 +56,7 @@ pub fn kuhn_grid(n: usize) -> TetrahedronMesh {
 }
 
 /// The same mesh with the tetrahedra, and the corners of each, in random order.
-pub fn shuffled(random: &mut Random, mesh: &TetrahedronMesh) -> TetrahedronMesh {
+pub fn shuffled(random: &mut Random, mesh: &TetrahedronMesh) -> TetrahedronMesh<'static> {
     let mut tetrahedra = mesh.tetrahedra().to_vec();
     shuffle(random, &mut tetrahedra);
     for corners in &mut tetrahedra {

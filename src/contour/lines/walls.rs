@@ -7,13 +7,12 @@
 //! contour. No edge inside the domain is touched, and no two cells disagree, since
 //! an edge of the boundary belongs to one cell.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use super::start::slope_beside;
 use crate::bernstein::TriangleCubic;
 use crate::contour::CellRanges;
+use crate::contour::components::components;
 use crate::contour::rounding::Rounding;
 use crate::interpolant::TriangleCubics;
 
@@ -71,7 +70,7 @@ impl Walls {
 
     /// Keeps the edges of chains that are walls.
     fn of_chains(candidates: &[Candidate]) -> Self {
-        let chain = chains(candidates);
+        let chain = components(candidates.len(), |n| candidates[n].edge);
         let mut lengths = vec![0; candidates.len()];
         let mut followed = vec![true; candidates.len()];
         for (candidate, &chain) in candidates.iter().zip(&chain) {
@@ -151,30 +150,6 @@ fn remove_edges_of_left_out_cells(
         .collect();
     inside.sort_unstable();
     candidates.retain(|candidate| inside.binary_search(&candidate.edge).is_err());
-}
-
-/// The chain of each edge, named by one of its edges: edges are of one chain if a
-/// path of edges joins them.
-fn chains(candidates: &[Candidate]) -> Vec<usize> {
-    let mut parents: Vec<usize> = (0..candidates.len()).collect();
-    let mut first_at = HashMap::new();
-    for (number, candidate) in candidates.iter().enumerate() {
-        for point in candidate.edge {
-            let other = *first_at.entry(point).or_insert(number);
-            let (one, two) = (root(&mut parents, other), root(&mut parents, number));
-            parents[one.max(two)] = one.min(two);
-        }
-    }
-    (0..candidates.len()).map(|number| root(&mut parents, number)).collect()
-}
-
-/// The edge that names a chain; the way to it is halved for the next search.
-fn root(parents: &mut [usize], mut number: usize) -> usize {
-    while parents[number] != number {
-        parents[number] = parents[parents[number]];
-        number = parents[number];
-    }
-    number
 }
 
 #[cfg(test)]

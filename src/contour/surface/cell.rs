@@ -1,6 +1,10 @@
 //! A tetrahedron at one level.
 
-use crate::bernstein::{Barycentric4, TetrahedronCubic};
+use arrayvec::ArrayVec;
+
+use super::walls::Walls;
+use crate::bernstein::{Barycentric4, Sign, TetrahedronCubic};
+use crate::contour::crossings::{MAX_CROSSINGS, crossings};
 use crate::contour::rounding::Rounding;
 use crate::interpolant::TetrahedronCubics;
 use crate::mesh::Vector;
@@ -20,8 +24,14 @@ pub struct Cell {
     pub corners: [Vector; 4],
     /// The places of its corners in the mesh's own order.
     order: [usize; 4],
-    /// The cubic less the level; what rounding alone keeps from the level is zero.
+    /// The cubic less the level; what rounding alone keeps from the level is zero, and so is
+    /// what belongs to a wall.
     pub cubic: TetrahedronCubic,
+    /// How the solution rises from each corner into the domain; zero for a corner that is on
+    /// no wall.
+    rises: [f64; 4],
+    /// Which faces, named by the corner opposite, lie on the level as a whole.
+    pub flat: [bool; 4],
     /// Whether the corners, in this order, are those of a right-handed tetrahedron.
     pub right_handed: bool,
 }
@@ -32,7 +42,7 @@ impl Cell {
     pub fn new(
         interpolant: &dyn TetrahedronCubics,
         rounding: &Rounding,
-        level: f64,
+        walls: &Walls,
         number: u32,
     ) -> Option<Self> {
         let points = interpolant.mesh().tetrahedra()[number as usize];
@@ -51,14 +61,54 @@ impl Cell {
             for (place, exponent) in order.into_iter().zip(exponents) {
                 here[place] = exponent;
             }
-            let difference = cubic.coefficient(here) - level;
+            let difference = cubic.coefficient(here) - rounding.level();
             // a coefficient of a face belongs to all its corners
             let own = (0..4).filter(|&n| exponents[n] > 0).map(|n| near[n]);
             if difference.abs() <= own.fold(0.0, f64::max) { 0.0 } else { difference }
         });
         let right_handed = is_right_handed(&corners) == is_even(&order);
         let corners = order.map(|place| corners[place]);
-        Some(Self { number, points: sorted, corners, order, cubic: above_level, right_handed })
+        let (cubic, rises) = (walls.applied(sorted, above_level), walls.rises(sorted));
+        let flat = TetrahedronCubic::FACE_VERTICES.map(|face| {
+            let on_level = cubic.face(face).coefficients == [0.0; 10];
+            // between walls that meet nothing is known inside a face
+            on_level && !walls.surround(face.map(|n| sorted[n]))
+        });
+        Some(Self { number, points: sorted, corners, order, cubic, rises, flat, right_handed })
+    }
+
+    /// The side of the level on which a point counts. On a wall it is the side on which the
+    /// solution lies next to it; elsewhere what is on the level counts as above.
+    pub fn sign(&self, at: &Barycentric4) -> Sign {
+        let value = self.cubic.value(at);
+        Sign::of(if value == 0.0 { self.rise(at) } else { value })
+    }
+
+    /// Whether a point is on one side of the level, if only as a point of a wall.
+    pub fn has_side(&self, at: &Barycentric4) -> bool {
+        self.cubic.value(at) != 0.0 || self.rise(at) != 0.0
+    }
+
+    /// Where the surface crosses the line from `a` to `b`, whose ends count as on the given
+    /// sides.
+    pub fn crossings(
+        &self,
+        [a, b]: [&Barycentric4; 2],
+        [start, end]: [Sign; 2],
+    ) -> ArrayVec<f64, MAX_CROSSINGS> {
+        let line = self.cubic.restrict(a, b);
+        if line.coefficients == [0.0; 4] && start != end {
+            let (from, to) = (self.rise(a), self.rise(b));
+            let t = (from / (from - to)).clamp(0.0, 1.0);
+            return ArrayVec::from_iter([if t.is_nan() { 1.0 } else { t }]);
+        }
+        crossings(&line, start, end)
+    }
+
+    /// How the solution rises from a point of a wall into the domain: linear between corners.
+    fn rise(&self, at: &Barycentric4) -> f64 {
+        ((self.rises[0] * at[0] + self.rises[1] * at[1]) + self.rises[2] * at[2])
+            + self.rises[3] * at[3]
     }
 
     /// The point at the given weights.
@@ -74,11 +124,6 @@ impl Cell {
             ordered[place] = *weight;
         }
         ordered
-    }
-
-    /// Whether a face, named by the corner opposite, lies on the level as a whole.
-    pub fn is_flat(&self, face: usize) -> bool {
-        self.cubic.face(TetrahedronCubic::FACE_VERTICES[face]).coefficients == [0.0; 10]
     }
 }
 

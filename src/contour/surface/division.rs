@@ -113,7 +113,7 @@ impl Marks {
             return;
         };
         let at = between(&piece.at[low], &piece.at[high], point.t);
-        let sign = Sign::of(cell.cubic.value(&at));
+        let sign = cell.sign(&at);
         for replaced in [high, low] {
             let part = with_vertex(&piece, replaced, point.vertex, at, sign);
             self.divide(part, cell, parts);

@@ -29,7 +29,7 @@ pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellatio
     let mut faces: Vec<FlatFace> = Vec::new();
     for (place, cell) in cells.iter().enumerate() {
         let in_flat_cell = cell.cubic.coefficients == [0.0; 20];
-        for opposite in (0..4).filter(|&face| cell.is_flat(face)) {
+        for opposite in (0..4).filter(|&face| cell.flat[face]) {
             let points = TetrahedronCubic::FACE_VERTICES[opposite].map(|n| cell.points[n]);
             faces.push(FlatFace { points, in_flat_cell, cell: place as u32, opposite });
         }
@@ -46,7 +46,7 @@ pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellatio
 
 /// Whether three points of a cell lie in one of its faces that is on the level.
 pub fn are_in_flat_face(cell: &Cell, points: [&PatchPoint; 3]) -> bool {
-    (0..4).any(|n| points.iter().all(|point| point.at[n] == 0.0) && cell.is_flat(n))
+    (0..4).any(|n| cell.flat[n] && points.iter().all(|point| point.at[n] == 0.0))
 }
 
 fn add_face(cell: &Cell, face: &FlatFace, sides: u32, tessellation: &mut Tessellation) {

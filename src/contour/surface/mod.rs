@@ -14,6 +14,7 @@ mod settle;
 mod surface_builder;
 mod tessellation;
 mod uniform;
+mod walls;
 
 pub use budget::points_per_side_within;
 pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
@@ -29,6 +30,7 @@ use piece::Piece;
 use settle::settle;
 use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
+use walls::Walls;
 
 /// How fine a surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +90,8 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
     let active = ranges.cells_at(level, |range| rounding::of_range(range, level));
     let rounding = Rounding::new(interpolant.mesh(), ranges, level, &active);
-    let cell = |&number: &u32| Cell::new(interpolant, &rounding, level, number);
+    let walls = Walls::new(interpolant, ranges, &rounding, &active);
+    let cell = |&number: &u32| Cell::new(interpolant, &rounding, &walls, number);
     active.par_iter().filter_map(cell).collect()
 }
 

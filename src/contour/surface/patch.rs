@@ -13,7 +13,6 @@ use super::cell::Cell;
 use super::owner::Owner;
 use super::piece::Piece;
 use crate::bernstein::{Barycentric4, Sign, between};
-use crate::contour::crossings::crossings;
 use crate::mesh::Vector;
 
 /// A ray: weights of the piece's vertices, which sum to one over those above the level
@@ -57,8 +56,8 @@ impl Patch<'_> {
     pub fn point(&self, ray: &Ray) -> PatchPoint {
         let (from, to) = self.ends(ray);
         let (start, end) = (self.weighted(&from, ray), self.weighted(&to, ray));
-        let line = self.cell.cubic.restrict(&start, &end);
-        let found = crossings(&line, self.piece.signs[from[0]], self.piece.signs[to[0]]);
+        let sides = [from[0], to[0]].map(|n| self.piece.signs[n]);
+        let found = self.cell.crossings([&start, &end], sides);
         // one, if the piece is certified; of three in one that is not, the middle one
         let t = found.get(found.len() / 2).copied().unwrap_or(0.5);
         let (owner, t) = if t <= AT_END {

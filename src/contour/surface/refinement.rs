@@ -60,12 +60,25 @@ pub struct Refinement<'a> {
     pub points: Vec<(PatchPoint, u32)>,
     /// The number of the first point that is added.
     pub first_point: u32,
-    /// Points that are vertices on the level. Their sides are left alone: where parts of the
-    /// surface fell together there, a side's ends do not tell it from others.
+    /// Points that are vertices on the level, or on edges that lie on it.
     pub on_level: HashSet<u32>,
     /// Triangles that are not as fine as asked, because they would be too small.
     pub coarse: usize,
 }
+
+/// What tells a side from all others. All triangles that have it give it the same name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct SideName {
+    /// Its ends, ascending.
+    ends: [u32; 2],
+    /// The vertices of the edge, face or piece in which it runs, ascending, if an end is on the
+    /// level: parts of the surface may fall together there, and sides with the same ends be
+    /// different curves.
+    within: [u32; 4],
+}
+
+/// Stands for no vertex.
+const NONE: u32 = u32::MAX;
 
 /// What a triangle asks for.
 enum Wish {
@@ -99,7 +112,11 @@ impl Refinement<'_> {
 
     /// Which sides of a triangle it wants to be divided.
     fn wish(&self, facet: &Facet) -> Wish {
-        let Some(_) = facet.piece else { return Wish::Nothing };
+        // a face on the level is exact; where nothing is certain, no division makes it so
+        let is_certified = |piece: u32| self.pieces[piece as usize].is_certified;
+        if !facet.piece.is_some_and(is_certified) {
+            return Wish::Nothing;
+        }
         let cell = &self.cells[facet.cell as usize];
         let frame = TetrahedronFrame::new(cell.corners);
         let is_far = |at: &Barycentric4| self.is_far(cell, &frame, at);
@@ -121,28 +138,28 @@ impl Refinement<'_> {
 
     /// Whether a point is farther from the level set than the tolerance.
     fn is_far(&self, cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> bool {
+        let value = cell.cubic.value(at).abs();
         let slope = frame.gradient(&cell.cubic.barycentric_gradient(at)).norm();
         // so far a value can change within the tolerance; cells without volume have no
         // slope, and their neighbours decide
-        let change = self.tolerance * (slope + 0.5 * self.tolerance * bend(cell, frame, at));
-        cell.cubic.value(at).abs() > change
+        value > self.tolerance * slope && {
+            let bend = frame.hessian(&cell.cubic.barycentric_hessian(at)).norm();
+            value > self.tolerance * (slope + 0.5 * self.tolerance * bend)
+        }
     }
 
     /// The middles of all sides that are to be divided, as new points.
-    fn middles(&mut self, wishes: &[Wish]) -> HashMap<[u32; 2], u32> {
-        let mut marked: Vec<([u32; 2], usize, usize)> = Vec::new();
+    fn middles(&mut self, wishes: &[Wish]) -> HashMap<SideName, u32> {
+        let mut marked: Vec<(SideName, usize, usize)> = Vec::new();
         for (place, wish) in wishes.iter().enumerate() {
             if let Wish::Sides(sides) = wish {
                 for side in (0..3).filter(|&side| sides[side]) {
-                    marked.push((name(&self.facets[place], side), place, side));
+                    marked.push((self.name(&self.facets[place], side), place, side));
                 }
             }
         }
         marked.sort_unstable();
         marked.dedup_by_key(|(name, ..)| *name);
-        let all = marked.len();
-        marked.retain(|(name, ..)| !name.iter().any(|end| self.on_level.contains(end)));
-        self.coarse += all - marked.len();
         let found: Vec<PatchPoint> = marked
             .par_iter()
             .map(|&(_, place, side)| self.middle(&self.facets[place], side).1)
@@ -156,6 +173,21 @@ impl Refinement<'_> {
             }
         }
         middles
+    }
+
+    fn name(&self, facet: &Facet, side: usize) -> SideName {
+        let corners = SIDES[side];
+        let [a, b] = corners.map(|corner| facet.corners[corner]);
+        let mut within = [NONE; 4];
+        if let (Some(piece), true) = (facet.piece, [a, b].iter().any(|n| self.on_level.contains(n)))
+        {
+            let [from, to] = corners.map(|corner| facet.rays[corner]);
+            for n in (0..4).filter(|&n| from[n] != 0.0 || to[n] != 0.0) {
+                within[n] = self.pieces[piece as usize].vertices[n];
+            }
+            within.sort_unstable();
+        }
+        SideName { ends: [a.min(b), a.max(b)], within }
     }
 
     /// The middle of a side: its ray, and where that crosses the level.
@@ -174,7 +206,7 @@ impl Refinement<'_> {
     }
 
     /// Divides all triangles with the given sides; returns which of the triangles are new.
-    fn divide(&mut self, middles: &HashMap<[u32; 2], u32>) -> Vec<bool> {
+    fn divide(&mut self, middles: &HashMap<SideName, u32>) -> Vec<bool> {
         let facets = std::mem::take(&mut self.facets);
         let parts: Vec<(Facet, bool)> = facets
             .par_iter()
@@ -190,8 +222,8 @@ impl Refinement<'_> {
     }
 
     /// The parts of a triangle: one to four.
-    fn parts(&self, facet: &Facet, middles: &HashMap<[u32; 2], u32>) -> ArrayVec<Facet, 4> {
-        let divided = [0, 1, 2].map(|side| middles.get(&name(facet, side)).copied());
+    fn parts(&self, facet: &Facet, middles: &HashMap<SideName, u32>) -> ArrayVec<Facet, 4> {
+        let divided = [0, 1, 2].map(|side| middles.get(&self.name(facet, side)).copied());
         if divided == [None; 3] {
             return ArrayVec::from_iter([*facet]);
         }
@@ -243,25 +275,6 @@ fn split(divided: [bool; 3], length: impl Fn(usize, usize) -> f64) -> ArrayVec<[
         _ => parts.extend([[0, 5, 4], [1, 3, 5], [2, 4, 3], [3, 4, 5]]),
     }
     parts
-}
-
-/// The name of a side: its ends, ascending.
-fn name(facet: &Facet, side: usize) -> [u32; 2] {
-    let [a, b] = SIDES[side].map(|corner| facet.corners[corner]);
-    [a.min(b), a.max(b)]
-}
-
-/// The size of the second derivatives.
-fn bend(cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> f64 {
-    let hessian = cell.cubic.barycentric_hessian(at);
-    let gradients = frame.barycentric_gradients();
-    let mut bend = 0.0;
-    for i in 0..4 {
-        for j in 0..4 {
-            bend += hessian[i][j].abs() * gradients[i].norm() * gradients[j].norm();
-        }
-    }
-    bend
 }
 
 fn is_long(facet: &Facet, side: usize) -> bool {

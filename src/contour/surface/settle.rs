@@ -23,6 +23,14 @@ pub struct Settled {
 /// then some 2⁻³² of its cell: coefficients that far apart differ by rounding alone.
 const MAX_DEPTH: u16 = 96;
 
+/// The same for a piece with a vertex in which sheets may meet, which is then 1/256 of its
+/// cell: every smaller piece looks alike.
+const MAX_DEPTH_AT_VERTEX: u16 = 24;
+
+/// The same for a piece with an edge on the level, which is then 1/16 of its cell: where
+/// sheets meet in an edge every smaller piece looks alike, and there are ever more of them.
+const MAX_DEPTH_AT_EDGE: u16 = 12;
+
 /// Pieces of a cell beyond which they are left unresolved. A surface that can be
 /// certified needs some tens; only one that is double along a curve, or nearly so, asks
 /// for more.
@@ -32,6 +40,8 @@ const MAX_PIECES: usize = 4096;
 struct Known {
     piece: Piece,
     certificate: PatchCertificate,
+    /// Whether it may be divided further.
+    is_divisible: bool,
 }
 
 /// Divides the cells until each piece holds one simple patch or none. `points` is the
@@ -59,8 +69,22 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
 }
 
 fn known(cells: &[Cell], piece: Piece) -> Known {
-    let certificate = piece.certificate(&cells[piece.cell as usize]);
-    Known { piece, certificate }
+    let cell = &cells[piece.cell as usize];
+    let certificate = piece.certificate(cell);
+    let undecided = certificate == PatchCertificate::None;
+    let is_divisible = undecided && piece.depth < deepest(&piece, cell);
+    Known { piece, certificate, is_divisible }
+}
+
+/// The divisions that a piece may have come of, and be divided again.
+fn deepest(piece: &Piece, cell: &Cell) -> u16 {
+    if piece.has_edge_on_level(cell) {
+        MAX_DEPTH_AT_EDGE
+    } else if piece.has_singular_vertex(cell) {
+        MAX_DEPTH_AT_VERTEX
+    } else {
+        MAX_DEPTH
+    }
 }
 
 fn holds_something(known: &Known) -> bool {
@@ -73,13 +97,9 @@ fn marked(cells: &[Cell], pieces: &[Known]) -> Vec<([u32; 2], f64)> {
     let groups: Vec<&[Known]> = pieces.chunk_by(|a, b| a.piece.cell == b.piece.cell).collect();
     let marks = groups.into_par_iter().filter(|group| group.len() < MAX_PIECES);
     marks
-        .flat_map_iter(|group| group.iter().filter(|known| is_undecided(known)))
+        .flat_map_iter(|group| group.iter().filter(|known| known.is_divisible))
         .map(|known| mark(&known.piece, &cells[known.piece.cell as usize]))
         .collect()
-}
-
-fn is_undecided(known: &Known) -> bool {
-    known.certificate == PatchCertificate::None && known.piece.depth < MAX_DEPTH
 }
 
 /// The parts of a piece, or the piece itself if no edge of it is marked.
@@ -96,10 +116,11 @@ fn divided(cells: &[Cell], marks: &Marks, known: Known) -> impl Iterator<Item = 
 fn settled(cells: usize, pieces: Vec<Known>) -> Settled {
     let mut divided = vec![false; cells];
     let mut settled = Settled::default();
-    for Known { piece, certificate } in pieces {
+    for Known { piece, certificate, .. } in pieces {
         divided[piece.cell as usize] |= piece.depth > 0;
-        settled.unresolved += usize::from(certificate == PatchCertificate::None);
-        settled.pieces.push(piece);
+        let is_certified = certificate != PatchCertificate::None;
+        settled.unresolved += usize::from(!is_certified);
+        settled.pieces.push(Piece { is_certified, ..piece });
     }
     settled.divided = divided.into_iter().filter(|divided| *divided).count();
     settled

@@ -67,15 +67,13 @@ impl Builder<'_> {
             let corners = triangle.map(|point| places[point as usize]);
             let points = triangle.map(|point| &chunk.points[point as usize]);
             let cell = chunk.point_cells[triangle[0] as usize];
-            let [a, b, c] = corners;
-            if a == b || b == c || c == a {
-                self.collapsed = true;
-            } else if !(without_flat_faces
-                && are_in_flat_face(&self.level.cells[cell as usize], points))
-            {
+            let of_cell = &self.level.cells[cell as usize];
+            if !(without_flat_faces && are_in_flat_face(of_cell, points)) {
                 let rays = triangle.map(|point| chunk.rays[point as usize]);
                 let at = points.map(|point| point.at);
-                self.facets.push(Facet { corners, piece, rays, at, cell });
+                let facet = Facet { corners, piece, rays, at, cell };
+                self.collapsed |= is_collapsed(&facet);
+                self.facets.push(facet);
             }
         }
     }
@@ -99,9 +97,6 @@ impl Builder<'_> {
 
     /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
     fn finish(mut self) {
-        if self.collapsed {
-            drop_doubles(&mut self.facets);
-        }
         if let Some(tolerance) = self.level.tolerance {
             let mut refinement = Refinement {
                 cells: self.level.cells,
@@ -121,10 +116,21 @@ impl Builder<'_> {
             self.facets = facets;
             self.surface.counts.coarse += coarse;
         }
+        // not before: what is thin may have an inside that refinement finds
+        if self.collapsed {
+            self.facets.retain(|facet| !is_collapsed(facet));
+            drop_doubles(&mut self.facets);
+        }
         let number = |facet: &Facet| self.level.cells[facet.cell as usize].number;
         self.surface.triangles.extend(self.facets.iter().map(|facet| facet.corners));
         self.surface.cells.extend(self.facets.iter().map(number));
     }
+}
+
+/// Whether corners fell together on the level.
+fn is_collapsed(facet: &Facet) -> bool {
+    let [a, b, c] = facet.corners;
+    a == b || b == c || c == a
 }
 
 fn add_point(surface: &mut ContourSurface, level: &Level, point: &PatchPoint, cell: u32) {

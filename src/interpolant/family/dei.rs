@@ -25,7 +25,7 @@ use crate::pde::LANES;
 pub struct Dei<'a, const CORNERS: usize, const N: usize> {
     space: Space<CORNERS, N>,
     monomials: Monomials<N>,
-    mesh: &'a SimplexMesh<CORNERS>,
+    mesh: &'a SimplexMesh<'a, CORNERS>,
     field: Field<'a>,
     /// The coefficients on each cell.
     pieces: Vec<[f64; N]>,
@@ -61,7 +61,7 @@ where
     /// whose cells are of the space's shape: the four corners of a rectangle are in turn.
     pub fn new(
         space: Space<CORNERS, N>,
-        mesh: &'a SimplexMesh<CORNERS>,
+        mesh: &'a SimplexMesh<'a, CORNERS>,
         field: Field<'a>,
         equation: &Equation,
         options: &DeiOptions,
@@ -125,7 +125,7 @@ impl<const CORNERS: usize, const N: usize> Dei<'_, CORNERS, N> {
 }
 
 impl<const CORNERS: usize, const N: usize> Pieces<CORNERS> for Dei<'_, CORNERS, N> {
-    fn mesh(&self) -> &SimplexMesh<CORNERS> {
+    fn mesh(&self) -> &SimplexMesh<'_, CORNERS> {
         self.mesh
     }
 

@@ -34,8 +34,10 @@ fn table_5_3() {
             // 64 points, most of them near the boundary, are another mesh each time
             assert!(row.points < 512 || row.continuous <= row.thesis[0], "{row:?}");
             assert!(row.continuous < row.as_thesis[0], "{row:?}");
-            assert!(row.continuous < row.without_pde, "{row:?}");
-            assert!(row.without_pde < 0.3 * row.linear, "{row:?}");
+            // neighbours can tell as much as the PDE
+            assert!(row.continuous < 1.3 * row.without_pde, "{row:?}");
+            assert!(row.points < 512 || row.continuous < 0.8 * row.quadratic_precision, "{row:?}");
+            assert!(row.quadratic_precision < 0.3 * row.linear, "{row:?}");
             // the thesis' ranking: the pure cubic is the best of its three
             let [p3, p2, p2_hat] = row.as_thesis;
             assert!(row.points < 512 || (p3 < p2 && p3 < p2_hat), "{row:?}");

@@ -91,8 +91,18 @@ fn tables_5_3() -> Vec<Table> {
 }
 
 fn table_of_problem(problem: usize, rows: &[table_5_3::Row]) -> Table {
-    let columns =
-        ["points", "tetrahedra", "who", "p3", "p2", "p̂2", "continuous", "no PDE", "linear"];
+    let columns = [
+        "points",
+        "tetrahedra",
+        "who",
+        "p3",
+        "p2",
+        "p̂2",
+        "continuous",
+        "no PDE",
+        "quadratic",
+        "linear",
+    ];
     let title = format!("Table 5.3: average error on random tetrahedra, problem {problem}");
     let mut table = Table::new(title, &columns);
     let rows: Vec<&table_5_3::Row> = rows.iter().filter(|row| row.problem == problem).collect();
@@ -101,7 +111,7 @@ fn table_of_problem(problem: usize, rows: &[table_5_3::Row]) -> Table {
         ("thesis", |row| row.thesis.to_vec()),
         ("its way, our mesh", |row| row.as_thesis.to_vec()),
         ("ours", |row| {
-            let others = [row.continuous, row.without_pde, row.linear];
+            let others = [row.continuous, row.without_pde, row.quadratic_precision, row.linear];
             row.family.into_iter().chain(others).collect()
         }),
     ];

@@ -103,8 +103,8 @@ pub enum FilterError {
     #[error("the refined grid would have {cells} cells, more than {most}: refine it less")]
     TooManyCells { cells: usize, most: usize },
 
-    #[error("--pde cannot be used with the linear interpolant: leave one of them out")]
-    LinearPde,
+    #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
+    UnusedPde,
 }
 
 impl FilterError {

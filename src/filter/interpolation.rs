@@ -137,6 +137,9 @@ fn in_triangles(
     let (mut singular, mut pde_fit) = (0, None);
     let coefficients = match (options.interpolant, &solution.pde) {
         (InterpolantKind::Linear, _) => OnTriangles::Linear,
+        (InterpolantKind::QuadraticPrecision, _) => {
+            OnTriangles::Pci(Pci::with_quadratic_precision(mesh, field).into_centres())
+        }
         (InterpolantKind::Pci, None) => OnTriangles::Pci(Pci::new(mesh, field).into_centres()),
         (InterpolantKind::Pci, Some(known)) => {
             let pci = Pci::with_pde(mesh, field, &known.equation(options.predictor));
@@ -162,6 +165,9 @@ fn in_tetrahedra(
     let mut singular = 0;
     let coefficients = match (options.interpolant, &solution.pde) {
         (InterpolantKind::Linear, _) => OnTetrahedra::Linear,
+        (InterpolantKind::QuadraticPrecision, _) => {
+            OnTetrahedra::Tricubic(Tricubic::with_quadratic_precision(mesh, field).into_faces())
+        }
         (InterpolantKind::Pci, None) => {
             OnTetrahedra::Tricubic(Tricubic::new(mesh, field).into_faces())
         }

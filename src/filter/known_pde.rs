@@ -21,14 +21,14 @@ impl KnownPde {
     /// (a parameter of that name wins) and point arrays of one component.
     ///
     /// # Errors
-    /// If the PDE cannot be read, or there is one for the linear interpolant.
+    /// If the PDE cannot be read, or there is one for an interpolant that uses none.
     pub fn of_grid(
         grid: &UnstructuredGrid,
         options: &ContourOptions,
     ) -> Result<Option<Self>, FilterError> {
         let Some(text) = &options.pde else { return Ok(None) };
-        if options.interpolant == InterpolantKind::Linear {
-            return Err(FilterError::LinearPde);
+        if options.interpolant != InterpolantKind::Pci {
+            return Err(FilterError::UnusedPde);
         }
         let scalars: Vec<_> = grid.point_data.iter().filter(|a| a.components == 1).collect();
         let names: Vec<String> = scalars.iter().map(|array| array.name.clone()).collect();

@@ -3,7 +3,7 @@
 use super::cells::GHOSTS;
 use super::gradient_arrays::plain;
 use super::gradients::GradientSource;
-use super::options::{ContourOptions, InterpolantKind};
+use super::options::ContourOptions;
 use crate::vtk::{ArrayInfo, AttributeKind, Description, Selection};
 
 /// The arrays that decide what the contours are, so that the others need not be decoded
@@ -14,8 +14,12 @@ pub fn needed_arrays(options: &ContourOptions, file: &Description) -> Selection 
     let active = file.point_arrays.iter().find(|array| is(array, AttributeKind::Scalars));
     let chosen = options.array.as_ref().or(active.map(|array| &array.name));
     let gradient: Vec<String> = match &options.gradient {
-        GradientSource::Array(name) if options.interpolant == InterpolantKind::Pci => {
-            if named(name) { vec![name.clone()] } else { parts(name) }
+        GradientSource::Array(name) if options.interpolant.uses_gradients() => {
+            if named(name) {
+                vec![name.clone()]
+            } else {
+                parts(name)
+            }
         }
         _ => Vec::new(),
     };
@@ -23,7 +27,7 @@ pub fn needed_arrays(options: &ContourOptions, file: &Description) -> Selection 
         let automatic = options.gradient == GradientSource::Automatic;
         let component = chosen.is_some_and(|name| plain(&array.name).contains(&plain(name)));
         let is_candidate = array.components > 1 || component;
-        automatic && options.interpolant == InterpolantKind::Pci && is_candidate
+        automatic && options.interpolant.uses_gradients() && is_candidate
     };
     let is_needed = |array: &&ArrayInfo| {
         chosen == Some(&array.name)
@@ -53,6 +57,7 @@ fn is(array: &ArrayInfo, role: AttributeKind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::filter::InterpolantKind;
     use crate::vtk::ArrayType;
 
     fn info(name: &str, components: usize, active: &[AttributeKind]) -> ArrayInfo {

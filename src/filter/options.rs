@@ -16,8 +16,17 @@ pub enum InterpolantKind {
     /// The pure cubic interpolant of values, gradients and PDE.
     #[default]
     Pci,
+    /// The pure cubic interpolant of values and gradients, each cell by itself.
+    QuadraticPrecision,
     /// The linear interpolant of the values, as VTK's own filter.
     Linear,
+}
+
+impl InterpolantKind {
+    /// Whether gradients decide the contours, and not only the values.
+    pub fn uses_gradients(self) -> bool {
+        self != Self::Linear
+    }
 }
 
 /// What to contour, and how.

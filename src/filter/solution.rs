@@ -168,7 +168,7 @@ impl<const CORNERS: usize> Domain<'static, CORNERS> {
         let Some(Part { mesh, parents }) = part else { return Ok(None) };
         let gradients = match options.interpolant {
             InterpolantKind::Linear => Gradients::none(),
-            InterpolantKind::Pci => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
+            _ => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
         };
         let ghosts = ghosts(grid, &parents);
         Ok(Some(Self { mesh, parents: Some(parents), ghosts, gradients }))

@@ -5,13 +5,11 @@
 //! linear equations (thesis, section 1.8; it leaves the points open).
 
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
-use super::hermite::quadratic_precision;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
-use crate::field::Field;
 use crate::mesh::TetrahedronMesh;
 
 /// Four linear equations for what is to be added to the face coefficients of a
-/// tetrahedron that reproduce quadratics: `matrix · x = right`, columns by the vertex
+/// tetrahedron: `matrix · x = right`, columns by the vertex
 /// opposite to the face. Scaled such that the matrix has norm 1 (Frobenius), and `right`
 /// the unit of the solution.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,19 +22,20 @@ pub(super) struct FaceEquations {
 const PLACES: [Barycentric4; 4] =
     [[0.7, 0.1, 0.1, 0.1], [0.1, 0.7, 0.1, 0.1], [0.1, 0.1, 0.7, 0.1], [0.1, 0.1, 0.1, 0.7]];
 
-/// The equations of some tetrahedra; none where the PDE says nothing of the face
+/// The equations of some tetrahedra, for what is to be added to the face coefficients of the
+/// cubics that `start` gives; none where the PDE says nothing of the face
 /// coefficients or is not finite.
 pub(super) fn face_equations(
     mesh: &TetrahedronMesh,
-    field: &Field,
     equation: &Equation,
     tetrahedra: &[usize],
+    start: impl Fn(usize) -> TetrahedronCubic,
 ) -> Vec<Option<FaceEquations>> {
     let mut collocation = Collocation::new(equation);
     let starts: Vec<TetrahedronCubic> = tetrahedra
         .iter()
         .map(|&tetrahedron| {
-            let start = quadratic_precision(mesh, field, tetrahedron);
+            let start = start(tetrahedron);
             push_places(&mut collocation, mesh, tetrahedron, &start, equation.predictor);
             start
         })

@@ -3,7 +3,7 @@
 
 use crate::bernstein::TetrahedronCubic;
 use crate::field::Field;
-use crate::mesh::TetrahedronMesh;
+use crate::mesh::{TetrahedronMesh, Vector};
 
 /// The cubic with the field's values and gradients at the vertices, and the given
 /// coefficients amid the faces opposite to them.
@@ -13,9 +13,19 @@ pub(super) fn hermite(
     tetrahedron: usize,
     faces: [f64; 4],
 ) -> TetrahedronCubic {
-    let points = mesh.tetrahedra()[tetrahedron].map(|point| point as usize);
+    hermite_of(&mesh.tetrahedra()[tetrahedron], mesh.points(), field, faces)
+}
+
+/// The same between points in any order.
+fn hermite_of(
+    points: &[u32; 4],
+    positions: &[Vector],
+    field: &Field,
+    faces: [f64; 4],
+) -> TetrahedronCubic {
+    let points = points.map(|point| point as usize);
     let values = points.map(|point| field.values[point]);
-    let corners = mesh.corners(tetrahedron);
+    let corners = points.map(|point| positions[point]);
     let toward = |i: usize, j: usize| {
         values[i] + field.gradients[points[i]].dot(&(corners[j] - corners[i])) / 3.0
     };
@@ -29,10 +39,18 @@ pub(super) fn quadratic_precision(
     field: &Field,
     tetrahedron: usize,
 ) -> TetrahedronCubic {
-    let mut cubic = hermite(mesh, field, tetrahedron, [0.0; 4]);
+    quadratic_precision_of(&mesh.tetrahedra()[tetrahedron], mesh.points(), field)
+}
+
+/// The same between points in any order.
+pub(super) fn quadratic_precision_of(
+    points: &[u32; 4],
+    positions: &[Vector],
+    field: &Field,
+) -> TetrahedronCubic {
+    let mut cubic = hermite_of(points, positions, field, [0.0; 4]);
     let vertex = cubic.vertices();
-    let faces = ascending_faces(&mesh.tetrahedra()[tetrahedron]);
-    for (position, [a, b, c]) in TetrahedronCubic::FACES.into_iter().zip(faces) {
+    for (position, [a, b, c]) in TetrahedronCubic::FACES.into_iter().zip(ascending_faces(points)) {
         let edge = |i: usize, j: usize| {
             let [_, near, far, _] = cubic.edge([i, j]).coefficients;
             near + far

@@ -4,7 +4,10 @@
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
 mod bent_edges;
+mod completion;
+mod constant;
 mod equation;
+mod face_completion;
 mod face_equations;
 pub mod family;
 mod hermite;

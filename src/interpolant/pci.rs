@@ -7,8 +7,9 @@
 //!
 //! `L p(c) = g(c, Û, Ûx, Ûy)`,
 //!
-//! one linear equation in one unknown. Without a PDE it is chosen such that
-//! quadratics are reproduced.
+//! one linear equation in one unknown. Without a PDE it is the one with which the
+//! cubic continues into those of its neighbours (`completion`), so that cubics are
+//! reproduced, or the one that reproduces quadratics.
 //!
 //! On a triangle in space the derivatives are those along its plane: `L` is
 //! applied to the tangential Hessian, and `uxx + uyy + uzz` is the surface
@@ -19,10 +20,12 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::TriangleCubics;
+use super::completion::centre_correction;
+use super::constant::ConstantTriangles;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
-use crate::mesh::TriangleMesh;
+use crate::mesh::{Edges, TriangleMesh};
 use crate::pde::LANES;
 
 /// The pure cubic interpolant of a field on a mesh of triangles.
@@ -52,15 +55,45 @@ const CHUNK: usize = 4 * LANES;
 const CENTROID: Barycentric = [1.0 / 3.0; 3];
 
 impl<'a> Pci<'a> {
-    /// The interpolant of values and gradients alone. It reproduces quadratics.
+    /// The interpolant of values and gradients alone, `b_111` from the neighbours.
+    ///
+    /// It reproduces cubics, but for triangles without a neighbour, which reproduce
+    /// quadratics. Its error is of fourth order on meshes whose triangles keep their
+    /// shape. It is the same for any number of threads, and up to rounding for any order
+    /// of triangles and their corners. `b_111` depends on the values not quite linearly:
+    /// neighbours that contradict each other count less.
     ///
     /// `field` has one value and one gradient for each point of `mesh`.
     pub fn new(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
-        let coefficients = (0..mesh.triangles().len())
-            .into_par_iter()
-            .map(|triangle| quadratic_precision(mesh, &field, triangle))
-            .map(|cubic| cubic.coefficients[TriangleCubic::CENTRE])
-            .collect();
+        let edges = Edges::new(mesh);
+        let constant = ConstantTriangles::new(mesh.points(), field);
+        Self::by_triangle(mesh, field, |triangle| {
+            let start = quadratic_precision(mesh, &field, triangle);
+            let centre = start.coefficients[TriangleCubic::CENTRE];
+            if constant.contain(&mesh.triangles()[triangle]) {
+                return centre;
+            }
+            centre + centre_correction(mesh, &field, &edges, triangle, &start)
+        })
+    }
+
+    /// The interpolant of values and gradients alone, each triangle by itself. It
+    /// reproduces quadratics, and its error is of third order.
+    ///
+    /// `field` has one value and one gradient for each point of `mesh`.
+    pub fn with_quadratic_precision(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
+        Self::by_triangle(mesh, field, |triangle| {
+            quadratic_precision(mesh, &field, triangle).coefficients[TriangleCubic::CENTRE]
+        })
+    }
+
+    /// The interpolant with the given `b_111` of each triangle.
+    fn by_triangle(
+        mesh: &'a TriangleMesh<'a>,
+        field: Field<'a>,
+        centre: impl Fn(usize) -> f64 + Sync + Send,
+    ) -> Self {
+        let coefficients = (0..mesh.triangles().len()).into_par_iter().map(centre).collect();
         Self { mesh, field, centres: Cow::Owned(Centres { coefficients, singular: 0 }) }
     }
 

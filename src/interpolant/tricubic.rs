@@ -6,9 +6,11 @@
 //! Here a face has one number, whatever the tetrahedron that asks for it, and the
 //! interpolant is continuous everywhere.
 //!
-//! Without a PDE that number is taken from the face's own data, such that quadratics
-//! are reproduced. With one, the numbers of all faces are chosen together to meet the
-//! equations of all tetrahedra as well as possible, by least squares.
+//! Without a PDE that number is the one with which the cubics at the face continue into
+//! their neighbours (`face_completion`), so that cubics are reproduced, or is taken from
+//! the face's own data, such that quadratics are. With a PDE, the numbers of all faces are
+//! chosen together to meet the equations of all tetrahedra as well as possible, by least
+//! squares.
 
 use std::borrow::Cow;
 
@@ -16,6 +18,7 @@ use rayon::prelude::*;
 
 use super::TetrahedronCubics;
 use super::equation::Equation;
+use super::face_completion::face_corrections;
 use super::face_equations::{FaceEquations, face_equations};
 use super::hermite::{hermite, quadratic_precision};
 use super::least_squares::least_squares;
@@ -26,8 +29,8 @@ use crate::pde::LANES;
 
 /// The tri-cubic interpolant of a field on a mesh of tetrahedra.
 ///
-/// Its error is of third order without a PDE and of fourth with one, on meshes whose
-/// tetrahedra keep their shape.
+/// Its error is of fourth order on meshes whose tetrahedra keep their shape, of third with
+/// quadratic precision.
 #[derive(Clone, Debug)]
 pub struct Tricubic<'a> {
     mesh: &'a TetrahedronMesh<'a>,
@@ -38,7 +41,7 @@ pub struct Tricubic<'a> {
 /// What of a tri-cubic interpolant is not read off the field.
 #[derive(Clone, Debug, Default)]
 pub struct FaceCoefficients {
-    /// With a PDE: the coefficients amid the faces of each tetrahedron.
+    /// The coefficients amid the faces of each tetrahedron; none for quadratic precision.
     coefficients: Option<Vec<[f64; 4]>>,
     singular: usize,
 }
@@ -47,39 +50,52 @@ pub struct FaceCoefficients {
 const CHUNK: usize = LANES;
 
 impl<'a> Tricubic<'a> {
-    /// The interpolant of values and gradients alone. It reproduces quadratics.
+    /// The interpolant of values and gradients alone, the face coefficients from the
+    /// neighbours.
+    ///
+    /// It reproduces cubics, but for tetrahedra without a neighbour, which reproduce
+    /// quadratics. Its error is of fourth order on meshes whose tetrahedra keep their
+    /// shape. It is the same for any number of threads, and for any order of tetrahedra and
+    /// their corners.
+    ///
+    /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
+    /// tetrahedron are stored.
+    pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
+        let faces = Faces::new(mesh);
+        let coefficients = Some(completed(mesh, &field, &faces));
+        let faces = FaceCoefficients { coefficients, singular: 0 };
+        Self { mesh, field, faces: Cow::Owned(faces) }
+    }
+
+    /// The interpolant of values and gradients alone, each face by itself. It reproduces
+    /// quadratics, and its error is of third order.
     ///
     /// `field` has one value and one gradient for each point of `mesh`. Nothing is
     /// stored: all coefficients are read off the field.
-    pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
+    pub fn with_quadratic_precision(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
         Self { mesh, field, faces: Cow::Owned(FaceCoefficients::default()) }
     }
 
     /// The interpolant that also satisfies a PDE, as well as one cubic a tetrahedron can
     /// without cracks.
     ///
-    /// It reproduces quadratics if they solve the PDE, and any cubic that solves it if
-    /// the PDE determines it (the Laplacian does) and `g` does not depend on the
-    /// solution. It is the same for any number of threads.
+    /// It starts at [`Tricubic::new`], so what the PDE does not determine comes from the
+    /// neighbours. It reproduces any cubic that solves the PDE, if `g` does not depend on
+    /// the solution, and is the same for any number of threads.
     pub fn with_pde(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, equation: &Equation) -> Self {
+        let numbered = Faces::new(mesh);
+        let without = completed(mesh, &field, &numbered);
+        let start = |tetrahedron: usize| hermite(mesh, &field, tetrahedron, without[tetrahedron]);
         let tetrahedra: Vec<usize> = (0..mesh.tetrahedra().len()).collect();
         let equations: Vec<Option<FaceEquations>> = tetrahedra
             .par_chunks(CHUNK)
-            .flat_map_iter(|chunk| face_equations(mesh, &field, equation, chunk))
+            .flat_map_iter(|chunk| face_equations(mesh, equation, chunk, start))
             .collect();
         let singular = equations.iter().filter(|equations| equations.is_none()).count();
         let equations = equations.into_iter().map(Option::unwrap_or_default).collect();
-        let numbered = Faces::new(mesh);
         let corrections = least_squares(&numbered, equations);
-        let corrected = |(tetrahedron, faces): (usize, &[u32; 4])| {
-            let start = quadratic_precision(mesh, &field, tetrahedron);
-            [0, 1, 2, 3].map(|opposite| {
-                let position = TetrahedronCubic::FACES[opposite];
-                start.coefficients[position] + corrections[faces[opposite] as usize]
-            })
-        };
-        let coefficients = numbered.of_tetrahedra().par_iter().enumerate().map(corrected).collect();
-        let faces = FaceCoefficients { coefficients: Some(coefficients), singular };
+        let coefficients = Some(corrected(without, &numbered, &corrections));
+        let faces = FaceCoefficients { coefficients, singular };
         Self { mesh, field, faces: Cow::Owned(faces) }
     }
 
@@ -100,10 +116,31 @@ impl<'a> Tricubic<'a> {
 
     /// How many tetrahedra could not use the PDE, because it says nothing of the face
     /// coefficients there or is not a finite number. Their faces follow the neighbours;
-    /// a face of such tetrahedra alone reproduces quadratics.
+    /// a face of such tetrahedra alone is as without a PDE.
     pub fn singular(&self) -> usize {
         self.faces.singular
     }
+}
+
+/// For each tetrahedron the coefficients amid its faces, from the neighbours.
+fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 4]> {
+    let coefficients = (0..mesh.tetrahedra().len()).into_par_iter().map(|tetrahedron| {
+        let start = quadratic_precision(mesh, field, tetrahedron);
+        TetrahedronCubic::FACES.map(|position| start.coefficients[position])
+    });
+    corrected(coefficients.collect(), faces, &face_corrections(mesh, field, faces))
+}
+
+/// For each tetrahedron the coefficients amid its faces, and what is to be added to that of
+/// each face.
+fn corrected(mut coefficients: Vec<[f64; 4]>, faces: &Faces, corrections: &[f64]) -> Vec<[f64; 4]> {
+    let numbered = coefficients.par_iter_mut().zip(faces.of_tetrahedra());
+    numbered.for_each(|(coefficients, faces)| {
+        for (coefficient, face) in coefficients.iter_mut().zip(faces) {
+            *coefficient += corrections[*face as usize];
+        }
+    });
+    coefficients
 }
 
 impl TetrahedronCubics for Tricubic<'_> {

@@ -25,6 +25,13 @@ pub struct Side {
     pub opposite: u8,
 }
 
+impl Side {
+    /// The point of the tetrahedron that is not on the face.
+    pub fn point(&self, mesh: &TetrahedronMesh) -> u32 {
+        mesh.tetrahedra()[self.tetrahedron as usize][self.opposite as usize]
+    }
+}
+
 impl Faces {
     /// The faces of `mesh`, in the order of their points.
     pub fn new(mesh: &TetrahedronMesh) -> Self {
@@ -65,6 +72,22 @@ impl Faces {
     pub fn sides(&self, face: usize) -> &[Side] {
         &self.sides[self.offsets[face]..self.offsets[face + 1]]
     }
+
+    /// What lies beyond the face opposite a corner of a tetrahedron of `mesh`: the one other
+    /// side of that face. None on the boundary, where three tetrahedra or more have the
+    /// face, and beyond which the same tetrahedron lies once more.
+    pub fn beyond(
+        &self,
+        mesh: &TetrahedronMesh,
+        tetrahedron: usize,
+        opposite: usize,
+    ) -> Option<Side> {
+        let sides = self.sides(self.of_tetrahedra[tetrahedron][opposite] as usize);
+        let [first, second] = sides else { return None };
+        let other = if first.tetrahedron as usize == tetrahedron { second } else { first };
+        let is_new = other.point(mesh) != mesh.tetrahedra()[tetrahedron][opposite];
+        is_new.then_some(*other)
+    }
 }
 
 #[cfg(test)]
@@ -84,5 +107,19 @@ mod tests {
         assert_eq!(faces.sides(shared as usize), sides);
         let alone = (0..7).filter(|&face| faces.sides(face).len() == 1).count();
         assert_eq!(alone, 6);
+        assert_eq!(faces.beyond(&mesh, 0, 0), Some(sides[1]));
+        assert_eq!(faces.beyond(&mesh, 1, 1), Some(sides[0]));
+        assert_eq!(faces.beyond(&mesh, 0, 1), None);
+        assert_eq!(sides.map(|side| side.point(&mesh)), [0, 4]);
+    }
+
+    #[test]
+    fn nothing_is_beyond_where_three_meet_or_one_is_twice_there() {
+        let points = || vec![Vector::zeros(); 6];
+        let three = vec![[0, 1, 2, 3], [1, 2, 3, 4], [1, 2, 3, 5]];
+        for tetrahedra in [three, vec![[0, 1, 2, 3], [1, 2, 3, 0]]] {
+            let mesh = TetrahedronMesh::new(points(), tetrahedra).unwrap();
+            assert_eq!(Faces::new(&mesh).beyond(&mesh, 0, 0), None);
+        }
     }
 }

@@ -6,6 +6,7 @@
 
 mod boundary;
 mod closest_point;
+mod edges;
 mod faces;
 mod frame;
 mod neighbours;
@@ -15,6 +16,7 @@ mod simplex_mesh;
 mod tetrahedron_frame;
 
 pub use boundary::boundary_edges;
+pub use edges::Edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;

@@ -12,6 +12,7 @@ pub mod order;
 pub mod polynomial;
 pub mod problem4;
 pub mod problems_3d;
+pub mod sampling;
 pub mod table;
 pub mod table_5_1;
 pub mod table_5_3;

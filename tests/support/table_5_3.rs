@@ -90,6 +90,8 @@ pub struct Row {
     pub continuous: f64,
     /// Ours without the PDE.
     pub without_pde: f64,
+    /// Without neighbours too.
+    pub quadratic_precision: f64,
     /// Of the linear interpolant.
     pub linear: f64,
 }
@@ -133,6 +135,7 @@ fn row(problem: &Problem, mesh: &TetrahedronMesh, thesis: [f64; 3]) -> Row {
         family: with(Predictor::Quadratic, DeiOptions::default().limit),
         continuous: error(&Tricubic::with_pde(mesh, field, &equation)),
         without_pde: error(&Tricubic::new(mesh, field)),
+        quadratic_precision: error(&Tricubic::with_quadratic_precision(mesh, field)),
         linear: error(&Linear::new(mesh, &values)),
     }
 }

@@ -32,7 +32,7 @@ const EXAMPLES: &str = "\
   Three levels of array u for ParaView:
     vtu2contour solution.vtu -o lines.vtp -a u -v 0.1,0.2,0.3
 
-  With the PDE that the solution satisfies, which makes the cubics fourth order:
+  With the PDE that the solution satisfies, which makes the cubics more exact:
     vtu2contour solution.vtu -o lines.vtp --pde 'uxx + uyy = -k*u' --param k=20
 
   Every step of a series at the same levels; lines.pvd lists lines/lines_0.vtp ...:

@@ -9,8 +9,11 @@ use vtu2contour::vtk::Encoding;
 /// Names of the interpolants.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Interpolant {
-    /// The pure cubic interpolant
+    /// The pure cubic interpolant: one cubic a cell, from values, gradients and the PDE, or
+    /// without one from the neighbours; of fourth order
     Pci,
+    /// Without PDE and neighbours: exact for quadratics, of third order
+    QuadraticPrecision,
     /// Linear, as VTK's own filter
     Linear,
 }
@@ -58,6 +61,7 @@ impl From<Interpolant> for InterpolantKind {
     fn from(name: Interpolant) -> Self {
         match name {
             Interpolant::Pci => Self::Pci,
+            Interpolant::QuadraticPrecision => Self::QuadraticPrecision,
             Interpolant::Linear => Self::Linear,
         }
     }

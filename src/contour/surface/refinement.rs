@@ -1,11 +1,12 @@
 //! Surfaces as fine as a tolerance asks, and no finer.
 //!
-//! A side of a triangle is divided where it, or the middle of a triangle at its longest
-//! side, is farther from the level set than the tolerance. Sides are marked first and
-//! divided then, in all triangles that have them: so the surface stays closed whatever the
-//! sizes on both sides. The new point is where the ray half way crosses the level.
+//! A side of a triangle is divided where it is farther from the level set than the tolerance,
+//! and with it the longest side, which keeps triangles in shape; where a triangle is too far
+//! inside, its longest side alone. Sides are marked first and divided then, in all triangles
+//! that have them: so the surface stays closed whatever the sizes on both sides. The new point
+//! is where the ray half way crosses the level.
 //!
-//! The distance is that to the level set, by value over slope, and not that to the curve
+//! The distance is that to the level set, along the slope, and not that to the curve
 //! in which the surface meets a face: where these are nearly tangent the curve winds
 //! within the surface, and following it would gain nothing.
 
@@ -36,8 +37,19 @@ pub struct Facet {
     pub cell: u32,
 }
 
+impl Facet {
+    /// A point inside, by the weights of the corners.
+    fn inside(&self, weights: &[f64; 3]) -> Barycentric4 {
+        let [a, b, c] = &self.at;
+        [0, 1, 2, 3].map(|n| weights[0] * a[n] + weights[1] * b[n] + weights[2] * c[n])
+    }
+}
+
 /// The sides of a triangle, by the places of their ends; side `n` is opposite corner `n`.
 const SIDES: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+
+/// Where a triangle is looked at inside: its middle, and between that and the corners.
+const INSIDE: [[f64; 3]; 4] = [[1.0 / 3.0; 3], [0.6, 0.2, 0.2], [0.2, 0.6, 0.2], [0.2, 0.2, 0.6]];
 
 /// A side of which no weight differs by more than this from end to end is not divided
 /// further.
@@ -108,6 +120,7 @@ impl Refinement<'_> {
             }
             is_new = self.divide(&middles);
         }
+        self.coarse += is_new.iter().filter(|new| **new).count();
     }
 
     /// Which sides of a triangle it wants to be divided.
@@ -124,28 +137,27 @@ impl Refinement<'_> {
             [0.25, 0.5, 0.75].iter().any(|&t| is_far(&between(&facet.at[i], &facet.at[j], t)))
         };
         let mut wanted = SIDES.map(side_is_far);
-        if wanted == [false; 3] {
-            let [a, b, c] = &facet.at;
-            let middle = [0, 1, 2, 3].map(|n| (a[n] + b[n] + c[n]) / 3.0);
-            if !is_far(&middle) {
-                return Wish::Nothing;
-            }
-            wanted[longest_side(cell, facet)] = true;
+        let is_near = wanted == [false; 3];
+        if is_near && !INSIDE.iter().any(|weights| is_far(&facet.inside(weights))) {
+            return Wish::Nothing;
         }
+        // always: else slivers come of slivers, and one far side of another without end
+        wanted[longest_side(cell, facet)] = true;
         let possible = [0, 1, 2].map(|side| wanted[side] && is_long(facet, side));
         if possible == [false; 3] { Wish::Refused } else { Wish::Sides(possible) }
     }
 
-    /// Whether a point is farther from the level set than the tolerance.
+    /// Whether a point may be farther from the level set than the tolerance: the level is not
+    /// met within that along the steepest way to it. Cells without volume have no slope, and
+    /// their neighbours decide.
     fn is_far(&self, cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> bool {
-        let value = cell.cubic.value(at).abs();
-        let slope = frame.gradient(&cell.cubic.barycentric_gradient(at)).norm();
-        // so far a value can change within the tolerance; cells without volume have no
-        // slope, and their neighbours decide
-        value > self.tolerance * slope && {
-            let bend = frame.hessian(&cell.cubic.barycentric_hessian(at)).norm();
-            value > self.tolerance * (slope + 0.5 * self.tolerance * bend)
-        }
+        let value = cell.cubic.value(at);
+        let slope = frame.gradient(&cell.cubic.barycentric_gradient(at));
+        let way = slope * (-value.signum() * self.tolerance / slope.norm());
+        let step = frame.barycentric_direction(&way);
+        let line = cell.cubic.restrict(at, &[0, 1, 2, 3].map(|n| at[n] + step[n]));
+        let is_one_signed = line.coefficients.iter().all(|c| c * value > 0.0);
+        is_one_signed || line.roots().as_slice().is_empty()
     }
 
     /// The middles of all sides that are to be divided, as new points.
@@ -167,7 +179,9 @@ impl Refinement<'_> {
         let mut middles = HashMap::with_capacity(marked.len());
         for (&(name, place, _), point) in marked.iter().zip(found) {
             // a ray that ends on the level leads to a point that is there already
-            if !matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+            if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+                self.coarse += 1;
+            } else {
                 middles.insert(name, self.first_point + self.points.len() as u32);
                 self.points.push((point, self.facets[place].cell));
             }

@@ -1,0 +1,226 @@
+//! The coefficients of tetrahedra that values and gradients leave free, from those of the
+//! neighbours.
+//!
+//! Sixteen of the twenty coefficients of a cubic are values and gradients at the vertices.
+//! The other four, one amid each face, are first those with which the cubic, continued
+//! beyond its faces, fits the gradients at the neighbours' far points best, by least
+//! squares. That is [`super::completion`] in space: let `q` be the far point and `μ` its
+//! barycentric coordinates in the tetrahedron `a b c d`, beyond the face `a b c`. The
+//! blossom of the cubic at `(a, q, q)` is the coefficient next to `q` on the edge from `q`
+//! to `a`, which is known. It is linear in the coefficients amid the faces at `a`, with
+//! factors such as `2 μ_b μ_c` for the face `a b c`. So each neighbour gives three
+//! equations, and its value, the blossom at `(q, q, q)`, a fourth. That one matters only
+//! where the others leave something open. On the boundary the neighbours' neighbours
+//! serve as well; without them the corner of a cube is not determined.
+//!
+//! Both tetrahedra of a face then have a coefficient for it, and the face takes their
+//! mean, weighed by how well each is determined. So the interpolant is continuous. If the
+//! data are those of one cubic, all are right. The error is of fourth order on meshes
+//! whose tetrahedra keep their shape.
+//!
+//! What a face takes depends on its tetrahedra and their neighbours alone.
+//!
+//! Source: ours.
+
+use arrayvec::ArrayVec;
+use nalgebra::{Cholesky, Matrix4, Vector4};
+use rayon::prelude::*;
+
+use super::constant::ConstantTriangles;
+use super::hermite::quadratic_precision_of;
+use crate::bernstein::{Barycentric4, TetrahedronCubic};
+use crate::field::Field;
+use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
+
+/// What a tetrahedron says of each of its faces, by the opposite corner.
+#[derive(Clone, Copy, Debug, Default)]
+struct Estimate {
+    /// What is to be added to the coefficients that reproduce quadratics.
+    corrections: [f64; 4],
+    /// How well each is determined: the inverse of its variance.
+    weights: [f64; 4],
+}
+
+/// Half the power of the distance with which equations lose weight. The fourth would be
+/// as good; this one bears badly wrong gradients better.
+const ORDER: i32 = 3;
+
+/// The weight of a value beside that of a gradient.
+const VALUE: f64 = 0.01;
+
+/// A part of the diagonal that is added, so that equations which determine less than four
+/// numbers determine those of least size.
+const ROUNDING: f64 = 1e-13;
+
+/// For each face, what is to be added to the coefficient that reproduces quadratics; zero
+/// where the face's data are constant.
+pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<f64> {
+    let estimates: Vec<Estimate> = (0..mesh.tetrahedra().len())
+        .into_par_iter()
+        .map(|tetrahedron| estimate(mesh, field, faces, tetrahedron))
+        .collect();
+    let constant = ConstantTriangles::new(mesh.points(), *field);
+    let mean = |face: usize| {
+        let side = faces.sides(face)[0];
+        let points = mesh.tetrahedra()[side.tetrahedron as usize];
+        let corners = TetrahedronCubic::FACE_VERTICES[side.opposite as usize];
+        let is_constant = constant.contain(&corners.map(|corner| points[corner]));
+        if is_constant { 0.0 } else { mean_of_sides(faces, &estimates, face) }
+    };
+    (0..faces.count()).into_par_iter().map(mean).collect()
+}
+
+/// The mean of what the tetrahedra at a face say; zero if none says anything.
+fn mean_of_sides(faces: &Faces, estimates: &[Estimate], face: usize) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for side in faces.sides(face) {
+        let estimate = &estimates[side.tetrahedron as usize];
+        let weight = estimate.weights[side.opposite as usize];
+        sum += weight * estimate.corrections[side.opposite as usize];
+        weights += weight;
+    }
+    if weights > 0.0 { sum / weights } else { 0.0 }
+}
+
+/// The corrections that continue a tetrahedron's cubic into its neighbours'.
+///
+/// Sums are taken in the order of points' numbers, so that no bit depends on that of corners.
+fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: usize) -> Estimate {
+    let points = mesh.tetrahedra()[tetrahedron];
+    let mut order = [0, 1, 2, 3];
+    order.sort_unstable_by_key(|&corner| points[corner]);
+    let points = order.map(|corner| points[corner]);
+    let frame = TetrahedronFrame::new(points.map(|point| mesh.points()[point as usize]));
+    if frame.is_degenerate() {
+        return Estimate::default();
+    }
+    let start = quadratic_precision_of(&points, mesh.points(), field);
+    let mut equations = NormalEquations::default();
+    let beyond = order.map(|corner| faces.beyond(mesh, tetrahedron, corner));
+    for (opposite, side) in beyond.iter().enumerate() {
+        if let Some(side) = side {
+            let far = FarPoint::new(mesh, field, side.point(mesh));
+            far.add_to(&mut equations, &frame, &start, Some(opposite));
+        }
+    }
+    if beyond.contains(&None) {
+        for point in further_points(mesh, faces, &beyond) {
+            FarPoint::new(mesh, field, point).add_to(&mut equations, &frame, &start, None);
+        }
+    }
+    let sorted = equations.solve();
+    let mut estimate = Estimate::default();
+    for (place, corner) in order.into_iter().enumerate() {
+        estimate.corrections[corner] = sorted.corrections[place];
+        estimate.weights[corner] = sorted.weights[place];
+    }
+    estimate
+}
+
+/// The points beyond the other faces of the neighbours, ascending: on the boundary
+/// neighbours are few.
+fn further_points(
+    mesh: &TetrahedronMesh,
+    faces: &Faces,
+    beyond: &[Option<Side>; 4],
+) -> ArrayVec<u32, 12> {
+    let mut points = ArrayVec::new();
+    for neighbour in beyond.iter().flatten() {
+        for opposite in (0..4).filter(|&n| n != neighbour.opposite as usize) {
+            let side = faces.beyond(mesh, neighbour.tetrahedron as usize, opposite);
+            points.extend(side.map(|side| side.point(mesh)));
+        }
+    }
+    points.sort_unstable();
+    points
+}
+
+/// A point beyond a face, with its data.
+struct FarPoint {
+    position: Vector,
+    value: f64,
+    gradient: Vector,
+}
+
+impl FarPoint {
+    fn new(mesh: &TetrahedronMesh, field: &Field, point: u32) -> Self {
+        let point = point as usize;
+        let (value, gradient) = (field.values[point], field.gradients[point]);
+        Self { position: mesh.points()[point], value, gradient }
+    }
+
+    /// Adds the equations by which the cubic `start` continues to this point: for all
+    /// corners but the one opposite the face between, if only one is.
+    fn add_to(
+        &self,
+        equations: &mut NormalEquations,
+        frame: &TetrahedronFrame,
+        start: &TetrahedronCubic,
+        opposite: Option<usize>,
+    ) {
+        let at = frame.barycentric(&self.position);
+        let continued = start.barycentric_gradient(&at).map(|derivative| derivative / 3.0);
+        let distance = 1.0 + at.iter().map(|weight| weight.abs()).sum::<f64>();
+        let weight = distance.powi(-2 * ORDER);
+        let mut of_value = [0.0; 4];
+        let mut continued_value = 0.0;
+        for (end, corner) in frame.corners().iter().enumerate() {
+            let factors = factors(&at, end);
+            if Some(end) != opposite {
+                let known = self.value + self.gradient.dot(&(corner - self.position)) / 3.0;
+                equations.add(weight, &factors, known - continued[end]);
+            }
+            continued_value += at[end] * continued[end];
+            of_value = [0, 1, 2, 3].map(|face| of_value[face] + at[end] * factors[face]);
+        }
+        equations.add(VALUE * weight, &of_value, self.value - continued_value);
+    }
+}
+
+/// The factors of the coefficients amid the faces, by their opposite corners, in the
+/// blossom at a corner and twice a place.
+fn factors(at: &Barycentric4, corner: usize) -> [f64; 4] {
+    let product = |opposite: usize| {
+        let others = (0..4).filter(|&n| n != corner && n != opposite);
+        2.0 * others.map(|n| at[n]).product::<f64>()
+    };
+    [0, 1, 2, 3].map(|opposite| if opposite == corner { 0.0 } else { product(opposite) })
+}
+
+/// Linear equations for four numbers, gathered for their least-squares solution.
+#[derive(Clone, Copy, Debug, Default)]
+struct NormalEquations {
+    matrix: Matrix4<f64>,
+    right: Vector4<f64>,
+}
+
+impl NormalEquations {
+    /// Adds an equation, unless it is not finite.
+    fn add(&mut self, weight: f64, factors: &[f64; 4], right: f64) {
+        let factors = Vector4::from(*factors);
+        let (weighed, side) = (factors * weight, factors * (weight * right));
+        if side.iter().all(|x| x.is_finite()) && weighed.dot(&factors).is_finite() {
+            self.matrix += weighed * factors.transpose();
+            self.right += side;
+        }
+    }
+
+    /// The solution; a face that no equation knows stays where it is.
+    fn solve(mut self) -> Estimate {
+        let known = [0, 1, 2, 3].map(|n| self.matrix[(n, n)] > 0.0);
+        for (n, &known) in known.iter().enumerate() {
+            let entry = &mut self.matrix[(n, n)];
+            *entry = if known { *entry * (1.0 + ROUNDING) } else { 1.0 };
+        }
+        let Some(factor) = Cholesky::new(self.matrix) else { return Estimate::default() };
+        let solution = factor.solve(&self.right);
+        let variances = factor.inverse().diagonal();
+        let weights = [0, 1, 2, 3].map(|n| if known[n] { 1.0 / variances[n] } else { 0.0 });
+        let finite = solution.iter().chain(&weights).all(|x| x.is_finite());
+        if finite {
+            Estimate { corrections: solution.into(), weights }
+        } else {
+            Estimate::default()
+        }
+    }
+}

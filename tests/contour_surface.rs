@@ -269,8 +269,8 @@ fn walls_on_the_level_are_whole() {
     let mesh = shuffled(&mut Random(6), &kuhn_grid(7));
     let (values, exact): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(with_walls).unzip();
     let recovered = recover_gradients(&mesh, &values, RecoveryDegree::Three);
-    let cases = [(exact, "exact", 0, 0.02), (recovered, "recovered", 50, 0.1)];
-    for (gradients, name, unresolved, error) in cases {
+    let cases = [(exact, "exact", 6, 0.02), (recovered, "recovered", 60, 0.1)];
+    for (gradients, name, divided, error) in cases {
         let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
         let ranges = CellRanges::of_tetrahedra(&f);
         let surface = contour_surface(&f, &ranges, &[0.0], Fineness::PointsPerSide(2));
@@ -282,7 +282,9 @@ fn walls_on_the_level_are_whole() {
         };
         let in_walls = surface.triangles.iter().filter(is_in_wall).count();
         println!("{name}: {:?}, area {}", surface.counts, area(&surface));
-        assert!(surface.counts.unresolved <= unresolved, "{name}: {:?}", surface.counts);
+        // the rest is where the plane meets two walls at once
+        assert!(surface.counts.divided <= divided, "{name}: {:?}", surface.counts);
+        assert!(surface.counts.unresolved < 40 * divided, "{name}: {:?}", surface.counts);
         assert_eq!(in_walls, 6 * 2 * 7 * 7, "{name}");
         assert!((area(&surface) - 7.0).abs() < error, "{name}");
     }

@@ -32,15 +32,19 @@ fn table_5_3() {
     for seed in 1..=2 {
         for row in table_5_3::rows(most, seed) {
             // 64 points, most of them near the boundary, are another mesh each time
-            assert!(row.points < 512 || row.continuous <= row.thesis[0], "{row:?}");
+            if row.points < 512 {
+                assert!(row.continuous < 0.3 * row.linear, "{row:?}");
+                continue;
+            }
+            assert!(row.continuous <= row.thesis[0], "{row:?}");
             assert!(row.continuous < row.as_thesis[0], "{row:?}");
             // neighbours can tell as much as the PDE
             assert!(row.continuous < 1.3 * row.without_pde, "{row:?}");
-            assert!(row.points < 512 || row.continuous < 0.8 * row.quadratic_precision, "{row:?}");
+            assert!(row.continuous < 0.8 * row.quadratic_precision, "{row:?}");
             assert!(row.quadratic_precision < 0.3 * row.linear, "{row:?}");
             // the thesis' ranking: the pure cubic is the best of its three
             let [p3, p2, p2_hat] = row.as_thesis;
-            assert!(row.points < 512 || (p3 < p2 && p3 < p2_hat), "{row:?}");
+            assert!(p3 < p2 && p3 < p2_hat, "{row:?}");
         }
     }
 }

@@ -11,11 +11,9 @@ use support::problems_3d::{FIFTH, Problem, SEVENTH};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::bernstein::Barycentric4;
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
-use vtu2contour::interpolant::{
-    DiscontinuousTricubic, Equation, Linear, Predictor, TetrahedronCubics, Tricubic,
-};
+use vtu2contour::interpolant::{Equation, Linear, Predictor, TetrahedronCubics, Tricubic};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
-use vtu2contour::pde::{Pde, Sample};
+use vtu2contour::pde::Pde;
 
 fn equation<'a>(pde: &'a Pde, arrays: &'a [Vec<f64>]) -> Equation<'a> {
     Equation { pde, arrays, predictor: Predictor::Quadratic }
@@ -213,10 +211,6 @@ fn where_the_pde_fails_it_is_left_out_and_counted() {
         let pde = parse(text);
         let tricubic = Tricubic::with_pde(&mesh, field, &equation(&pde, &[]));
         assert_eq!(tricubic.singular(), half);
-        assert_eq!(
-            DiscontinuousTricubic::with_pde(&mesh, field, &equation(&pde, &[])).singular(),
-            half
-        );
         for tetrahedron in 0..mesh.tetrahedra().len() {
             let cubic = tricubic.cubic(tetrahedron);
             assert!(cubic.coefficients.iter().all(|c| c.is_finite()));
@@ -283,42 +277,6 @@ fn operators_that_see_little() {
         println!("{text}: {with:.2e}, without {without:.2e}");
         assert!(with < without && tricubic.singular() == 0);
     }
-}
-
-/// The thesis' own: the PDE holds at its four points, and neighbours disagree.
-#[test]
-fn the_discontinuous_one_satisfies_the_pde() {
-    let mesh = random_cube(&mut Random(16), 60);
-    let (values, gradients) = FIFTH.at_points(&mesh);
-    let field = Field { values: &values, gradients: &gradients };
-    let pde = parse("uxx + 2*uyy + uzz + uxy/2 = x*y - z");
-    let p3 = DiscontinuousTricubic::with_pde(&mesh, field, &equation(&pde, &[]));
-    let continuous = Tricubic::with_pde(&mesh, field, &equation(&pde, &[]));
-    let mut jump = 0.0_f64;
-    for tetrahedron in 0..mesh.tetrahedra().len() {
-        let frame = mesh.frame(tetrahedron);
-        let gradients = frame.barycentric_gradients();
-        let cubic = p3.cubic(tetrahedron);
-        for vertex in 0..4 {
-            let mut at = [0.1; 4];
-            at[vertex] = 0.7;
-            let hessian = cubic.barycentric_hessian(&at);
-            let mut second = nalgebra::Matrix3::zeros();
-            for (i, row) in hessian.iter().enumerate() {
-                for (j, entry) in row.iter().enumerate() {
-                    second += gradients[i] * gradients[j].transpose() * *entry;
-                }
-            }
-            let found =
-                second[(0, 0)] + 2.0 * second[(1, 1)] + second[(2, 2)] + second[(0, 1)] / 2.0;
-            let sample = Sample { x: frame.position(&at).into(), ..Sample::default() };
-            assert!((found - pde.right_hand_side(&sample)).abs() < 1e-8 * (1.0 + second.norm()));
-        }
-        let difference = cubic.value(&[0.0, 0.3, 0.3, 0.4])
-            - continuous.cubic(tetrahedron).value(&[0.0, 0.3, 0.3, 0.4]);
-        jump = jump.max(difference.abs());
-    }
-    assert!(jump > 1e-3);
 }
 
 /// Mean error at points of each tetrahedron.

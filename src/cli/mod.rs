@@ -5,8 +5,10 @@
 
 mod arguments;
 mod contour;
+mod csv;
 mod info;
 mod input;
+mod interpolate;
 #[cfg(unix)]
 mod interruptions;
 mod messages;
@@ -33,6 +35,7 @@ pub fn run() -> ExitCode {
         None => contour::run(&cli.contour),
         Some(Command::Contour(arguments)) => contour::run(&arguments),
         Some(Command::Info(arguments)) => info::run(&arguments),
+        Some(Command::Interpolate(arguments)) => interpolate::run(&arguments),
         Some(Command::Completions { shell }) => {
             let name = env!("CARGO_PKG_NAME");
             clap_complete::generate(shell, &mut Cli::command(), name, &mut std::io::stdout());

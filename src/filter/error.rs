@@ -100,6 +100,9 @@ pub enum FilterError {
     )]
     TooSmall { option: &'static str, value: f64, least: f64 },
 
+    #[error("the refined grid would have {cells} cells, more than {most}: refine it less")]
+    TooManyCells { cells: usize, most: usize },
+
     #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
     UnusedPde,
 }

@@ -27,6 +27,7 @@ mod preview;
 mod range_warning;
 mod report;
 mod resample;
+mod sampling;
 mod solution;
 mod surface_output;
 
@@ -48,4 +49,5 @@ pub use picture::picture;
 pub use preview::{Preview, preview};
 pub use report::Report;
 pub use resample::Stencil;
+pub use sampling::{RefinedGrid, Refinement, Sampled, refine, sample, sample_image};
 pub use solution::{Domain, Solution};

@@ -3,24 +3,27 @@
 //! Whatever interpolant is chosen, what the floors above read are Bernstein
 //! coefficients, by the traits [`TriangleCubics`] and [`TetrahedronCubics`].
 
+mod bent_edges;
 mod completion;
 mod constant;
-mod discontinuous;
 mod equation;
 mod face_completion;
 mod face_equations;
+pub mod family;
 mod hermite;
 mod least_squares;
 mod linear;
 mod pci;
 mod pde_fit;
+mod pieces;
 mod tricubic;
 
-pub use discontinuous::DiscontinuousTricubic;
+pub use bent_edges::{bent_edges_of_tetrahedron, bent_edges_of_triangle};
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
 pub use pci::{Centres, Pci};
 pub use pde_fit::PdeFit;
+pub use pieces::{Pieces, Taylor};
 pub use tricubic::{FaceCoefficients, Tricubic};
 
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};

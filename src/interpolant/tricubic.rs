@@ -47,7 +47,7 @@ pub struct FaceCoefficients {
 }
 
 /// Tetrahedra collocated at a time by one thread: whole batches of the PDE.
-pub(super) const CHUNK: usize = LANES;
+const CHUNK: usize = LANES;
 
 impl<'a> Tricubic<'a> {
     /// The interpolant of values and gradients alone, the face coefficients from the

@@ -11,6 +11,7 @@ mod faces;
 mod frame;
 mod neighbours;
 mod point_locator;
+mod refined_mesh;
 mod simplex_mesh;
 mod tetrahedron_frame;
 
@@ -20,6 +21,7 @@ pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};
 pub use neighbours::PointNeighbours;
 pub use point_locator::{Location, PointLocator};
+pub use refined_mesh::{PieceEdge, RefinedMesh, RefinedPiece, RefinedPlace, piece_edges};
 pub use simplex_mesh::{MeshError, SimplexMesh, TetrahedronMesh, TriangleMesh};
 pub use tetrahedron_frame::TetrahedronFrame;
 

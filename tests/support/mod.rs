@@ -13,6 +13,8 @@ pub mod polynomial;
 pub mod problem4;
 pub mod problems_3d;
 pub mod sampling;
+pub mod table;
+pub mod table_5_1;
 pub mod table_5_3;
 pub mod table_5_7;
 pub mod tables_of_surfaces;

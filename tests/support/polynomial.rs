@@ -1,6 +1,6 @@
 //! Polynomials in space, with their derivatives, as numbers and as text.
 
-use vtu2contour::mesh::{TetrahedronMesh, Vector};
+use vtu2contour::mesh::{SimplexMesh, Vector};
 
 use super::meshes::Random;
 
@@ -13,11 +13,16 @@ pub struct Polynomial {
 impl Polynomial {
     /// A polynomial of the given degree with coefficients in [-1, 1).
     pub fn random(random: &mut Random, degree: i32) -> Self {
-        let exponents = (0..(degree + 1).pow(3)).map(|n| {
-            let side = degree + 1;
-            [n % side, n / side % side, n / (side * side)]
-        });
-        let wanted = exponents.filter(|exponents| exponents.iter().sum::<i32>() <= degree);
+        Self::with_powers(random, degree, degree, 3)
+    }
+
+    /// A polynomial of the first two or all three coordinates with powers up to `each`
+    /// and degrees up to `total`, its coefficients in [-1, 1).
+    pub fn with_powers(random: &mut Random, each: i32, total: i32, dimension: u32) -> Self {
+        let side = each + 1;
+        let exponents =
+            (0..side.pow(dimension)).map(|n| [n % side, n / side % side, n / (side * side)]);
+        let wanted = exponents.filter(|exponents| exponents.iter().sum::<i32>() <= total);
         Self { terms: wanted.map(|exponents| (random.uniform(-1.0, 1.0), exponents)).collect() }
     }
 
@@ -35,7 +40,10 @@ impl Polynomial {
     }
 
     /// Values and gradients at the points of a mesh.
-    pub fn at_points(&self, mesh: &TetrahedronMesh) -> (Vec<f64>, Vec<Vector>) {
+    pub fn at_points<const CORNERS: usize>(
+        &self,
+        mesh: &SimplexMesh<CORNERS>,
+    ) -> (Vec<f64>, Vec<Vector>) {
         let points = mesh.points().iter();
         (
             points.clone().map(|p| self.value(p)).collect(),

@@ -80,7 +80,7 @@ pub struct InterpolantArguments {
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter, requires = "pde")]
     pub parameters: Vec<(String, f64)>,
 
-    /// Which interpolant to contour
+    /// Which interpolant
     #[arg(long, value_name = "I", value_enum, default_value_t = Interpolant::Pci)]
     pub interpolant: Interpolant,
 
@@ -197,6 +197,19 @@ impl ScalarArguments {
             component: self.component,
             gradient,
             ..ContourOptions::default()
+        }
+    }
+}
+
+impl InterpolantArguments {
+    /// Fills in which interpolant.
+    pub fn options(&self, options: ContourOptions) -> ContourOptions {
+        ContourOptions {
+            interpolant: self.interpolant.into(),
+            pde: self.pde.clone(),
+            parameters: self.parameters.clone(),
+            predictor: self.predictor.into(),
+            ..options
         }
     }
 }

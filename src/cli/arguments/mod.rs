@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use vtu2contour::filter::ContourOptions;
+use vtu2contour::vtk::WriteOptions;
 
 mod groups;
 mod names;
@@ -43,6 +44,9 @@ const EXAMPLES: &str = "\
   What is in a file, and what would be contoured:
     vtu2contour info solution.vtu
 
+  The cubics on a mesh as fine as they need, for ParaView:
+    vtu2contour interpolate solution.vtu -o fine.vtu --tolerance 1e-3
+
 Without a gradient array (say where it is with -g) gradients are recovered from
 the values. 'vtu2contour --help' explains every option.";
 
@@ -79,6 +83,8 @@ pub enum Command {
     Contour(ContourArguments),
     /// Tell what is in a file, and what would be contoured
     Info(InfoArguments),
+    /// Evaluate the cubics at given points, on a finer mesh or on a regular grid
+    Interpolate(InterpolateArguments),
     /// Print completions for a shell, to be sourced by it
     Completions {
         /// The shell
@@ -94,6 +100,77 @@ pub struct InfoArguments {
 
     #[command(flatten)]
     pub scalars: ScalarArguments,
+}
+
+/// Arguments of `interpolate`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("where").required(true))]
+pub struct InterpolateArguments {
+    /// The grid or surface (.vtu .pvtu .vtp .pvtp .vtk), or a step of a series (.pvd)
+    pub input: PathBuf,
+
+    /// Values by the array's name, gradients as 'Gradients', and the input's other point
+    /// data, interpolated linearly
+    ///
+    /// With --at: .csv, .vtp (the points alone) or .vtu (with the cells of FILE). With --grid:
+    /// .vti. A refined mesh: .vtu, whose cells have the data of the input's.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// At the points of a file: .csv (columns x, y and z, or the first two or three), or any
+    /// of VTK's grids and surfaces. Points outside the mesh are NaN, and counted
+    #[arg(long, value_name = "FILE", group = "where", help_heading = "Where")]
+    pub at: Option<PathBuf>,
+
+    /// On the mesh with each edge in N equal parts: N² triangles for one, N³ tetrahedra
+    #[arg(
+        long, value_name = "N", group = "where", help_heading = "Where",
+        value_parser = clap::value_parser!(u32).range(1..=1024)
+    )]
+    pub subdivide: Option<u32>,
+
+    /// On the mesh refined until the cubics are nowhere further than T from linear, in the
+    /// unit of the values: only where that is needed, and without hanging points
+    #[arg(
+        long, value_name = "T", group = "where", help_heading = "Where",
+        value_parser = values::positive
+    )]
+    pub tolerance: Option<f64>,
+
+    /// On so many regular points along x, y and z in the box around the mesh
+    #[arg(
+        long, value_name = "NX,NY[,NZ]", group = "where", help_heading = "Where",
+        value_parser = values::counts
+    )]
+    pub grid: Option<[usize; 3]>,
+
+    #[command(flatten)]
+    pub scalars: ScalarArguments,
+
+    #[command(flatten)]
+    pub interpolant: InterpolantArguments,
+
+    /// Encoding of the arrays in VTK's files
+    #[arg(
+        long, value_name = "E", value_enum, default_value_t = names::EncodingName::Raw,
+        help_heading = "Output"
+    )]
+    encoding: names::EncodingName,
+
+    #[command(flatten)]
+    pub running: RunArguments,
+}
+
+impl InterpolateArguments {
+    /// What the arguments say of the interpolant.
+    pub fn options(&self) -> ContourOptions {
+        self.interpolant.options(self.scalars.options())
+    }
+
+    /// How files are written.
+    pub fn write_options(&self) -> WriteOptions {
+        WriteOptions { encoding: self.encoding.into(), ..WriteOptions::default() }
+    }
 }
 
 /// Arguments of `contour`.
@@ -169,15 +246,11 @@ impl ContourArguments {
             tolerance: lines.tolerance,
             points_per_side: surfaces.nside,
             triangles: surfaces.triangles,
-            interpolant: interpolant.interpolant.into(),
-            pde: interpolant.pde.clone(),
-            parameters: interpolant.parameters.clone(),
-            predictor: interpolant.predictor.into(),
             single: output_options.single(),
             segments: output_options.segments,
             gradients: output_options.gradients,
             normals: output_options.normals,
-            ..self.scalars.options()
+            ..interpolant.options(self.scalars.options())
         }
     }
 }

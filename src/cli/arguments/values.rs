@@ -60,6 +60,26 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
     if low < high { Ok([low, high]) } else { Err("LO must be below HI".to_owned()) }
 }
 
+/// Reads `NX,NY` or `NX,NY,NZ`.
+pub fn counts(text: &str) -> Result<[usize; 3], String> {
+    const MOST: usize = 1 << 30;
+    let count = |text: &str| match text.trim().parse() {
+        Ok(count) if count > 0 => Ok(count),
+        _ => Err("give two or three whole numbers above zero, as NX,NY or NX,NY,NZ".to_owned()),
+    };
+    let counts = text.split(',').map(count).collect::<Result<Vec<usize>, String>>()?;
+    let counts = match counts[..] {
+        [x, y] => [x, y, 1],
+        [x, y, z] => [x, y, z],
+        _ => return Err("give two or three whole numbers, as NX,NY or NX,NY,NZ".to_owned()),
+    };
+    let total = counts.iter().try_fold(1_usize, |product, &count| product.checked_mul(count));
+    match total {
+        Some(total) if total <= MOST => Ok(counts),
+        _ => Err(format!("more than {MOST} points")),
+    }
+}
+
 /// Reads `NAME=V`.
 pub fn parameter(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("give a name and a number, as NAME=V")?;

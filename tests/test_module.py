@@ -169,7 +169,7 @@ def test_values_converge_with_the_third_order_at_least_and_gradients_with_the_se
 def test_pde_with_parameters_and_arrays():
     points, cells = square(6)
     u, grad = np.exp(points[:, 0]), np.column_stack([np.exp(points[:, 0]), 0 * points[:, 0]])
-    plain = vc.Interpolant(points, cells, u, grad)
+    plain = vc.Interpolant(points, cells, u, grad, interpolant="quadratic-precision")
     of_arrays = vc.Interpolant(
         points, cells, u, grad, pde="a*uxx + uyy = f", parameters={"a": 2.0}, arrays={"f": 2 * u}
     )

@@ -9,7 +9,9 @@ use std::path::Path;
 use support::domains::Domain;
 use support::meshes::{Random, random_square};
 use vtu2contour::contour::Levels;
-use vtu2contour::filter::{Component, ContourOptions, GradientSource, InterpolantKind, contour};
+use vtu2contour::filter::{
+    Component, ContourOptions, GradientSource, InterpolantKind, contour, preview,
+};
 use vtu2contour::mesh::{TriangleMesh, Vector};
 use vtu2contour::vtk::{DataArray, Selection, UnstructuredGrid, VtuFile};
 
@@ -257,4 +259,23 @@ fn corners_of(grid: &UnstructuredGrid, array: &DataArray) -> DataArray {
     let tuple = |&point: &i64| values[point as usize * width..][..width].to_vec();
     let corners = grid.cells.iter().flatten().flat_map(tuple).collect::<Vec<f64>>();
     DataArray::new(array.name.clone(), width, corners)
+}
+
+/// A hexahedron with two corners of its top exchanged.
+#[test]
+fn a_cell_that_folds_over_itself_is_told() {
+    let corners =
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
+    let points: Vec<f64> = corners.iter().flatten().map(|&x| f64::from(x)).collect();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, points));
+    grid.push_cell(12, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let values: Vec<f64> = corners.iter().map(|p| f64::from(p[0] + 2 * p[1] + 4 * p[2])).collect();
+    grid.point_data.push(DataArray::new("u", 1, values));
+    let told = warnings(&grid, &ContourOptions::default());
+    assert!(
+        told.iter().any(|text| text.starts_with("1 hexahedra fold over themselves")),
+        "{told:?}"
+    );
+    let found = preview(&grid, &ContourOptions::default()).unwrap();
+    assert_eq!(found.folded.to_string(), "1 hexahedra");
 }

@@ -43,6 +43,9 @@ impl Plan {
         for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
             self.left_out.add(name, &format!("{count} {what}"));
         }
+        if found.folded.total() > 0 {
+            self.notes.add(name, &format!("{} fold over themselves", found.folded));
+        }
         if let Some(warning) = &found.warning {
             self.notes.add(name, warning);
         }

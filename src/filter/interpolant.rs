@@ -85,6 +85,7 @@ impl<'a> Interpolant<'a> {
             triangles: solution.triangles.as_ref().map_or(0, Domain::count),
             tetrahedra: solution.tetrahedra.as_ref().map_or(0, Domain::count),
             left_out: solution.left_out.clone(),
+            folded: solution.folded.clone(),
             ghosts: interpolation.ghosts(),
             singular: interpolation.singular(),
             pde_fit: interpolation.triangles.as_ref().and_then(|found| found.pde_fit),

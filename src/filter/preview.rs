@@ -8,7 +8,7 @@ use super::gradients::{GradientOrigin, Gradients};
 use super::interpolant::Interpolant;
 use super::options::ContourOptions;
 use super::solution::{Domain, Solution};
-use crate::simplices::LeftOut;
+use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::UnstructuredGrid;
 
 /// What of a grid would be contoured, and between which values.
@@ -26,6 +26,8 @@ pub struct Preview {
     pub tetrahedra: usize,
     /// Cells of two or three dimensions that could not be split into simplices.
     pub left_out: LeftOut,
+    /// Solids whose tetrahedra lie over one another in part.
+    pub folded: CellCounts,
     /// Triangles and tetrahedra with values that are not finite.
     pub unusable: usize,
     /// Cells of another process, which are not contoured.
@@ -45,7 +47,7 @@ pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Prev
     let Interpolant { solution, interpolation } =
         Interpolant::new(Solution::of_grid(&grid, options)?, options)?;
     let (ghosts, unusable) = (interpolation.ghosts(), interpolation.unusable());
-    let Solution { label, triangles, tetrahedra, left_out, .. } = solution;
+    let Solution { label, triangles, tetrahedra, left_out, folded, .. } = solution;
     let triangle_count = triangles.as_ref().map_or(0, Domain::count);
     let tetrahedron_count = tetrahedra.as_ref().map_or(0, Domain::count);
     let of_solids = tetrahedra.map(|domain| domain.gradients);
@@ -58,6 +60,7 @@ pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Prev
         triangles: triangle_count,
         tetrahedra: tetrahedron_count,
         left_out,
+        folded,
         unusable,
         ghosts,
         range: interpolation.range,

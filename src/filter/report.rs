@@ -5,7 +5,7 @@ use super::pde_warning::pde_warning;
 use crate::contour::lines::{Counts, Resolution};
 use crate::contour::surface::{Fineness, SurfaceCounts};
 use crate::interpolant::PdeFit;
-use crate::simplices::LeftOut;
+use crate::simplices::{CellCounts, LeftOut};
 
 /// What was done, and what people should know about it.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ pub struct Report {
     pub tetrahedra: usize,
     /// Cells of two or three dimensions that could not be split into simplices.
     pub left_out: LeftOut,
+    /// Solids whose tetrahedra lie over one another in part.
+    pub folded: CellCounts,
     /// Triangles and tetrahedra of another process, which are not contoured.
     pub ghosts: usize,
     /// Triangles and tetrahedra in which the PDE could not be used.
@@ -61,13 +63,17 @@ impl Report {
             ),
             (touching, "in # triangles a level is touched, not crossed: no line is drawn there"),
             (coarse, "# arcs are not as fine as asked: they have too many points"),
-            (
-                solid.coarse,
-                "# triangles are not as fine as asked: they are too small, or at points on the level",
-            ),
+            (solid.coarse, "# triangles are not as fine as asked: they would be too small"),
         ];
         if self.left_out.total() > 0 {
             self.warnings.push(format!("left out: {}", self.left_out));
+        }
+        if self.folded.total() > 0 {
+            self.warnings.push(format!(
+                "{} fold over themselves, so surfaces in them may be doubled: mend the mesh, or \
+                 subdivide it",
+                self.folded
+            ));
         }
         for (count, text) in counted.into_iter().filter(|(count, _)| *count > 0) {
             self.warnings.push(text.replacen('#', &count.to_string(), 1));

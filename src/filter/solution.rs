@@ -11,7 +11,7 @@ use super::options::{ContourOptions, InterpolantKind};
 use crate::contour::CellRanges;
 use crate::field::Field;
 use crate::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh};
-use crate::simplices::LeftOut;
+use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::{ArrayType, UnstructuredGrid};
 
 /// A solution that can be contoured: its own arrays, or views of arrays that live elsewhere.
@@ -28,6 +28,8 @@ pub struct Solution<'a> {
     pub tetrahedra: Option<Domain<'a, 4>>,
     /// Cells that cannot be split into simplices.
     pub left_out: LeftOut,
+    /// Solids whose tetrahedra lie over one another in part.
+    pub folded: CellCounts,
     /// The PDE, if it is known.
     pub pde: Option<KnownPde>,
     /// The length of the diagonal of the box around all cells: of the larger one, where
@@ -62,7 +64,7 @@ impl Solution<'static> {
     pub fn of_grid(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
         let pde = KnownPde::of_grid(grid, options)?;
-        let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(grid)?;
+        let Cells { triangles, tetrahedra, left_out, folded } = Cells::new(grid)?;
         if triangles.is_none() && tetrahedra.is_none() {
             let cells = grid.types.iter().copied().collect();
             return Err(FilterError::NoCells { cells, left_out });
@@ -73,7 +75,7 @@ impl Solution<'static> {
         let diagonal = diagonal(triangles.as_ref()).max(diagonal(tetrahedra.as_ref()));
         let (label, single) = (chosen.label(), chosen.array.array_type() == ArrayType::F32);
         let values = values.into();
-        Ok(Self { label, single, values, triangles, tetrahedra, left_out, pde, diagonal })
+        Ok(Self { label, single, values, triangles, tetrahedra, left_out, folded, pde, diagonal })
     }
 }
 
@@ -118,6 +120,7 @@ impl<'a> Solution<'a> {
             triangles: None,
             tetrahedra: None,
             left_out: LeftOut::default(),
+            folded: CellCounts::default(),
             pde,
             diagonal,
         }

@@ -1,9 +1,22 @@
 //! Meshes made finer where that is asked for.
 //!
-//! Which cells are to be divided is decided elsewhere; here they are, with as many of their
-//! neighbours as it takes for all cells to fit together again. The result says where every
-//! cell and every point comes from ([`Refinement`]).
+//! Which cells are to be divided is decided elsewhere ([`Marks`]); here they are, with as many
+//! of their neighbours as it takes for all cells to fit together again. The result says where
+//! every cell and every point comes from ([`Refinement`]). Cells are divided, never joined over
+//! what was a side of one: boundaries, and interfaces between regions of cells, stay where
+//! they are.
+//!
+//! In the plane and on surfaces ([`TriangleMethod`]).
 
+mod centroid;
+mod longest_edge;
+mod marks;
+mod newest_vertex;
+mod red_green;
 mod refinement;
+mod triangle_bisection;
+mod triangle_method;
 
+pub use marks::{Marks, RefineError};
 pub use refinement::{NewPoint, Refinement};
+pub use triangle_method::TriangleMethod;

@@ -12,6 +12,8 @@
 //! |---|---|
 //! | [`filter`] | a grid with data in, lines with data out |
 //! | [`contour`] | levels, ranges of cells, contour lines |
+//! | [`monitor`] | where the mesh should be finer |
+//! | [`refine`] | meshes made finer there |
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
@@ -55,7 +57,9 @@ pub mod filter;
 pub mod interpolant;
 pub mod interruption;
 pub mod mesh;
+pub mod monitor;
 pub mod pde;
+pub mod refine;
 pub mod simplices;
 pub mod svg;
 pub mod vtk;

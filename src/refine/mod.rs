@@ -1,5 +1,6 @@
 //! Meshes made finer where that is asked for.
 
+pub mod delaunay;
 mod marks;
 mod refinement;
 

@@ -36,7 +36,7 @@ const SAME: f64 = 1e-9;
 /// The thesis' choice for a marked triangle: its circumcenter, if that is inside the domain;
 /// the middle of the longest edge, if that is on the boundary; its centroid otherwise.
 ///
-/// A circumcenter that sees a kept edge under a right angle or more is not taken (Ruppert
+/// A circumcenter that sees a kept edge under more than a right angle is not taken (Ruppert
 /// 1995): the edge is halved instead, else flat triangles would be left there.
 pub fn by_thesis(triangulation: &Triangulation, face: &Face) -> Vec<Addition> {
     let Circle { centre, radius } = circle(face);

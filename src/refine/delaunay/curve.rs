@@ -8,33 +8,36 @@ pub struct Curve {
     points: Vec<Point2<f64>>,
     /// How far along the polyline each point is.
     lengths: Vec<f64>,
-    /// What is closer counts as on it.
-    tolerance: f64,
 }
+
+/// How far the ends of an edge may be off, as a part of its length.
+const ON_CURVE: f64 = 0.01;
 
 impl Curve {
     /// The polyline of these points.
-    pub fn new(points: Vec<Point2<f64>>, tolerance: f64) -> Self {
+    pub fn new(points: Vec<Point2<f64>>) -> Self {
         let mut lengths = vec![0.0];
         for pair in points.windows(2) {
             lengths.push(lengths[lengths.len() - 1] + pair[0].distance_2(pair[1]).sqrt());
         }
-        Self { points, lengths, tolerance }
+        Self { points, lengths }
     }
 
     /// The point of the polyline halfway between two points that lie on it, the shorter way.
+    /// A polyline is not quite the curve that meshes are made of, so they are on it if they
+    /// are as near as a part of their own distance.
     pub fn between(&self, a: Point2<f64>, b: Point2<f64>) -> Option<Point2<f64>> {
-        let (a, b) = (self.place(a)?, self.place(b)?);
+        let tolerance = ON_CURVE * a.distance_2(b).sqrt();
+        let (a, b) = (self.place(a, tolerance)?, self.place(b, tolerance)?);
         let whole = *self.lengths.last()?;
         let middle = 0.5 * (a + b);
-        let is_closed =
-            self.points.first()?.distance_2(*self.points.last()?).sqrt() <= self.tolerance;
+        let is_closed = self.points.first() == self.points.last();
         let goes_around = is_closed && (a - b).abs() > 0.5 * whole;
         self.point(if goes_around { (middle + 0.5 * whole) % whole } else { middle })
     }
 
-    /// How far along the polyline a point is, if it is on it.
-    fn place(&self, point: Point2<f64>) -> Option<f64> {
+    /// How far along the polyline a point is, if it is as near as that.
+    fn place(&self, point: Point2<f64>, tolerance: f64) -> Option<f64> {
         let segments = self.points.windows(2).zip(&self.lengths);
         let places = segments.map(|(ends, start)| {
             let (from, to) = (ends[0], ends[1]);
@@ -47,7 +50,7 @@ impl Curve {
             (point.distance_2(mix(from, to, share)).sqrt(), start + along)
         });
         let nearest = places.min_by(|one, other| one.0.total_cmp(&other.0))?;
-        (nearest.0 <= self.tolerance).then_some(nearest.1)
+        (nearest.0 <= tolerance).then_some(nearest.1)
     }
 
     /// The point that is so far along the polyline.
@@ -71,7 +74,7 @@ mod tests {
 
     fn square() -> Curve {
         let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]];
-        Curve::new(corners.iter().map(|c| Point2::new(c[0], c[1])).collect(), 1e-9)
+        Curve::new(corners.iter().map(|c| Point2::new(c[0], c[1])).collect())
     }
 
     #[test]

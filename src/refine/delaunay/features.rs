@@ -37,8 +37,7 @@ pub fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
 /// whether its corners run clockwise; `regions` is one number a cell, or empty.
 ///
 /// # Errors
-/// If an edge belongs to more than two cells, or lies twice on the same side of one, or the
-/// boundary touches itself.
+/// If an edge belongs to more than two cells, or two cells lie on the same side of one.
 pub fn edges_and_features(
     mesh: &TriangleMesh,
     regions: &[u32],
@@ -54,7 +53,6 @@ pub fn edges_and_features(
     rayon::slice::ParallelSliceMut::par_sort_unstable(&mut sides[..]);
     let mut edges = Vec::with_capacity(sides.len() / 2 + 1);
     let mut features = Features::new();
-    let mut ends: HashMap<u32, u32> = HashMap::new();
     for group in sides.chunk_by(|one, next| one.0 == next.0) {
         let edge = group[0].0;
         edges.push(edge.map(|point| point as usize));
@@ -72,14 +70,23 @@ pub fn edges_and_features(
         }
         features
             .insert(edge, Feature { sides: beside, edge, span: [0.0, 1.0], halvings: HALVINGS });
-        if beside.contains(&None) {
-            edge.into_iter().for_each(|point| *ends.entry(point).or_default() += 1);
-        }
+    }
+    Ok((edges, features))
+}
+
+/// Refuses a boundary that touches itself: at such a point it has more than two edges.
+///
+/// # Errors
+/// [`DelaunayError::TouchingBoundaries`]
+pub fn refuse_touching(features: &Features) -> Result<(), DelaunayError> {
+    let mut counts: HashMap<u32, u32> = HashMap::new();
+    for feature in features.values().filter(|feature| feature.sides.contains(&None)) {
+        feature.edge.into_iter().for_each(|point| *counts.entry(point).or_default() += 1);
     }
     // the least, so that the message is the same every time
-    match ends.into_iter().filter(|(_, count)| *count > 2).map(|(point, _)| point).min() {
+    match counts.into_iter().filter(|(_, count)| *count > 2).map(|(point, _)| point).min() {
         Some(point) => Err(DelaunayError::TouchingBoundaries { point }),
-        None => Ok((edges, features)),
+        None => Ok(()),
     }
 }
 
@@ -130,7 +137,10 @@ mod tests {
         assert_eq!(three, DelaunayError::Branching { ends: [1, 2] });
         let over = with(vec![[0, 1, 2], [1, 2, 4]]);
         assert_eq!(over, DelaunayError::CrossingEdges { ends: [1, 2] });
-        let touching = with(vec![[0, 1, 2], [2, 3, 4]]);
+        let cells = vec![[0, 1, 2], [2, 3, 4]];
+        let mesh = TriangleMesh::new(vec![Vector::zeros(); 5], cells).unwrap();
+        let (_, features) = edges_and_features(&mesh, &[], |_| false).unwrap();
+        let touching = refuse_touching(&features).unwrap_err();
         assert_eq!(touching, DelaunayError::TouchingBoundaries { point: 2 });
     }
 }

@@ -29,11 +29,11 @@ use rayon::prelude::*;
 
 use self::choice::{Addition, by_thesis, without_conflicts};
 use self::curve::Curve;
-use self::features::{Feature, edges_and_features};
+use self::features::{Feature, edges_and_features, refuse_touching};
 use self::plane::Plane;
 use self::quality::improvements;
 use self::ties::Ties;
-use self::triangulation::{Face, Triangulation, centroid};
+use self::triangulation::{Face, Triangulation, centroid, refuse_duplicates};
 use super::{Marks, NewPoint, Refinement};
 use crate::interruption::checkpoint;
 use crate::mesh::{PointLocator, TriangleMesh, Vector};
@@ -44,9 +44,9 @@ pub struct DelaunayOptions<'a> {
     /// A number for each cell; edges between cells of different numbers are kept. Empty: all
     /// cells are of one region.
     pub regions: &'a [u32],
-    /// Curved boundaries, in the mesh's plane: an edge with both ends on one of these gets
-    /// its new points there, halfway along the polyline, unless other points are in the way.
-    /// Closed if it ends where it begins.
+    /// Curved boundaries, in the mesh's plane: a kept edge with both ends on one of these (to
+    /// a hundredth of its length) gets its new point there, halfway along the polyline,
+    /// unless other points are in the way. Closed if it ends where it begins.
     pub curves: &'a [Vec<Vector>],
     /// In degrees: triangles with a new point and a smaller angle are refined too, as far as
     /// the number of points allows it, unless two kept edges make the angle. Ruppert's
@@ -59,9 +59,6 @@ impl Default for DelaunayOptions<'_> {
         Self { regions: &[], curves: &[], least_angle: 20.0 }
     }
 }
-
-/// Points as close to a curve as this part of the mesh's size are on it.
-const ON_CURVE: f64 = 1e-6;
 
 /// Refines the marked triangles of a flat mesh. Needs no state.
 ///
@@ -119,6 +116,7 @@ impl<'a> Job<'a> {
         let (used, numbers) = used_points(mesh);
         let points: Vec<_> =
             used.iter().map(|&point| plane.project(&mesh.points()[point as usize])).collect();
+        refuse_duplicates(&points).map_err(|error| error.renumbered(&used))?;
         let (edges, features) = edges_and_features(mesh, options.regions, |cell| {
             let corners = mesh.corners(cell).map(|corner| plane.project(&corner));
             triangulation::cross(corners[0], corners[1], corners[2]) < 0.0
@@ -127,13 +125,15 @@ impl<'a> Job<'a> {
         let number = |point: u32| numbers[point as usize];
         let edges = edges.into_iter().map(|edge| edge.map(|p| number(p as u32) as usize));
         let features = features.into_iter().map(|(ends, kept)| (ends.map(number), kept)).collect();
-        let tolerance = ON_CURVE * mesh.diagonal();
-        let curves = options.curves.iter().map(|curve| {
-            Curve::new(curve.iter().map(|point| plane.project(point)).collect(), tolerance)
-        });
+        let curves = options
+            .curves
+            .iter()
+            .map(|curve| Curve::new(curve.iter().map(|point| plane.project(point)).collect()));
         let edges: Vec<_> = edges.collect();
         let triangulation = Triangulation::new(points, &edges, features, curves.collect())
             .map_err(|error| error.renumbered(&used))?;
+        // last: cells that do not fit together mostly touch, too
+        refuse_touching(&triangulation.features)?;
         Ok(Self { mesh, plane, triangulation, used, numbers, halved: Vec::new() })
     }
 

@@ -49,19 +49,21 @@ pub enum Way {
     Lost,
 }
 
+/// What rounding cannot tell from zero.
+const SAME: f64 = 1e-9;
+
 impl Triangulation {
     /// The triangulation of `points`, which begins with the given `edges` and is made
     /// Delaunay: so where four points lie on a circle, the edge of the input stays.
     ///
     /// # Errors
-    /// If points coincide or edges cross.
+    /// If edges cross.
     pub fn new(
         points: Vec<Point2<f64>>,
         edges: &[[usize; 2]],
         features: Features,
         curves: Vec<Curve>,
     ) -> Result<Self, DelaunayError> {
-        refuse_duplicates(&points)?;
         let mut crossing = Vec::new();
         let loaded = Spade::try_bulk_load_cdt(points, edges.to_vec(), |edge| crossing.push(edge));
         let Ok(mut spade) = loaded else { return Err(DelaunayError::NotFinite { point: 0 }) };
@@ -170,7 +172,8 @@ impl Triangulation {
         Way::Lost
     }
 
-    /// The features that a new point in the given face would see under a right angle or more.
+    /// The features that a new point in the given face would see under more than a right angle.
+    /// At a right angle, as in grids, triangles of 45 degrees are left.
     pub fn encroached(&self, place: Point2<f64>, face: FaceNumber) -> Vec<[u32; 2]> {
         let mut seen = vec![face];
         let mut next = 0;
@@ -182,7 +185,7 @@ impl Triangulation {
                 if edge.is_constraint_edge() {
                     let [a, b] = edge.positions();
                     let dot = (a.x - place.x) * (b.x - place.x) + (a.y - place.y) * (b.y - place.y);
-                    if dot <= 0.0 {
+                    if dot < -SAME * a.distance_2(b) {
                         found.push(ends(edge));
                     }
                 } else if let Some(beyond) = edge.rev().face().as_inner() {
@@ -294,8 +297,11 @@ pub fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// spade would keep one of two points at the same place.
-fn refuse_duplicates(points: &[Point2<f64>]) -> Result<(), DelaunayError> {
+/// Refuses points at the same place, of which spade would keep one.
+///
+/// # Errors
+/// [`DelaunayError::DuplicatePoints`]
+pub fn refuse_duplicates(points: &[Point2<f64>]) -> Result<(), DelaunayError> {
     let mut order: Vec<(u64, u64, u32)> = points
         .iter()
         .zip(0..)

@@ -12,10 +12,11 @@
 //! |---|---|
 //! | [`filter`] | a grid with data in, lines with data out |
 //! | [`contour`] | levels, ranges of cells, contour lines |
+//! | [`monitor`] | where the mesh should be finer |
+//! | [`refine`] | meshes made finer there |
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
-//! | [`refine`] | meshes made finer where that is asked for |
 //! | [`simplices`] | VTK's cells as triangles and tetrahedra |
 //! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours, location |
 //! | [`svg`] | pictures |
@@ -56,6 +57,7 @@ pub mod filter;
 pub mod interpolant;
 pub mod interruption;
 pub mod mesh;
+pub mod monitor;
 pub mod pde;
 pub mod refine;
 pub mod simplices;

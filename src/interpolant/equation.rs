@@ -28,7 +28,7 @@ pub struct Equation<'a> {
 }
 
 /// Where the PDE is to hold, and what `g` takes there.
-pub(super) struct Place<'a, const CORNERS: usize> {
+pub(crate) struct Place<'a, const CORNERS: usize> {
     /// The points of the cell.
     pub points: &'a [u32; CORNERS],
     /// The place in the cell.
@@ -42,7 +42,7 @@ pub(super) struct Place<'a, const CORNERS: usize> {
 }
 
 /// Collocation points of several cells, collected to be evaluated together.
-pub(super) struct Collocation<'a> {
+pub(crate) struct Collocation<'a> {
     equation: &'a Equation<'a>,
     batch: Batch,
     /// Values of the arrays at one place.

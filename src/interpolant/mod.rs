@@ -19,6 +19,7 @@ mod pieces;
 mod tricubic;
 
 pub use bent_edges::{bent_edges_of_tetrahedron, bent_edges_of_triangle};
+pub(crate) use equation::{Collocation, Place};
 pub use equation::{Equation, Predictor};
 pub use linear::Linear;
 pub use pci::{Centres, Pci};

@@ -94,6 +94,20 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
         position
     }
 
+    /// The area of a triangle, the volume of a tetrahedron; zero without one, as far as
+    /// rounding can tell.
+    pub fn measure(&self, simplex: usize) -> f64 {
+        match self.corners(simplex)[..] {
+            [a, b, c] if !TriangleFrame::new([a, b, c]).is_degenerate() => {
+                0.5 * (b - a).cross(&(c - a)).norm()
+            }
+            [a, b, c, d] if !TetrahedronFrame::new([a, b, c, d]).is_degenerate() => {
+                (b - a).cross(&(c - a)).dot(&(d - a)).abs() / 6.0
+            }
+            _ => 0.0,
+        }
+    }
+
     /// The length of the diagonal of the simplices' bounding box; zero without
     /// simplices. Points that no simplex uses, and those that are not finite, do not
     /// count.
@@ -150,6 +164,7 @@ mod tests {
         points.push(Vector::repeat(1e9));
         let mesh = TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap();
         assert_eq!(mesh.diagonal(), 5.0);
+        assert_eq!(mesh.measure(0), 6.0);
         assert_eq!(mesh.position(0, &[0.0, 0.5, 0.5]), Vector::new(1.5, 2.0, 0.0));
     }
 
@@ -158,5 +173,6 @@ mod tests {
         let points = vec![Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
         let mesh = TetrahedronMesh::new(points, vec![[0, 1, 2, 3]]).unwrap();
         assert_eq!(mesh.position(0, &[0.0, 0.25, 0.25, 0.5]), Vector::new(0.25, 0.25, 0.5));
+        assert_eq!(mesh.measure(0), 1.0 / 6.0);
     }
 }

@@ -9,6 +9,7 @@
 //! In the plane and on surfaces ([`TriangleMethod`]), and in space ([`refine_tetrahedra`]).
 
 mod centroid;
+pub mod delaunay;
 mod longest_edge;
 mod marked_tetrahedron;
 mod marks;

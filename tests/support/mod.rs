@@ -4,6 +4,7 @@
 pub mod brute_force;
 pub mod brute_force_3d;
 pub mod cells;
+pub mod checked;
 pub mod delaunay_3d;
 pub mod distance;
 pub mod domains;

@@ -1,0 +1,64 @@
+//! A flat mesh in coordinates of its plane.
+
+use spade::Point2;
+
+use super::DelaunayError;
+use crate::mesh::{TriangleMesh, Vector, plane_axes};
+
+/// The plane of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    origin: Vector,
+    axes: [Vector; 2],
+}
+
+/// Points this far off count as in the plane, as a part of the mesh's size: points in single
+/// precision are.
+const FLAT: f64 = 1e-6;
+
+impl Plane {
+    /// The plane of a mesh; that of x and y where it is parallel to it.
+    ///
+    /// # Errors
+    /// If a point of a cell is not finite or off the plane, or a cell has no area.
+    pub fn new(mesh: &TriangleMesh) -> Result<Self, DelaunayError> {
+        let points = mesh.points();
+        let used = || mesh.triangles().iter().flatten().copied();
+        let is_finite = |point: &u32| points[*point as usize].iter().all(|x| x.is_finite());
+        if let Some(point) = used().find(|point| !is_finite(point)) {
+            return Err(DelaunayError::NotFinite { point });
+        }
+        let flat = |&cell: &usize| mesh.frame(cell).is_degenerate();
+        if let Some(cell) = (0..mesh.triangles().len()).find(flat) {
+            return Err(DelaunayError::NoArea { cell: cell as u32 });
+        }
+        let Some(&[first, ..]) = mesh.triangles().first() else {
+            return Ok(Self { origin: Vector::zeros(), axes: [Vector::x(), Vector::y()] });
+        };
+        // the largest triangle tells the plane best
+        let largest = (0..mesh.triangles().len())
+            .max_by(|&a, &b| mesh.measure(a).total_cmp(&mesh.measure(b)))
+            .unwrap_or(0);
+        let mut normal = *mesh.frame(largest).normal();
+        if normal[normal.iamax()] < 0.0 {
+            normal = -normal;
+        }
+        let offset = normal.dot(&points[first as usize]);
+        let allowed = FLAT * mesh.diagonal();
+        let is_off = |point: &u32| (normal.dot(&points[*point as usize]) - offset).abs() > allowed;
+        match used().find(is_off) {
+            Some(point) => Err(DelaunayError::NotInPlane { point }),
+            None => Ok(Self { origin: normal * offset, axes: plane_axes(&normal) }),
+        }
+    }
+
+    /// A point's coordinates in the plane.
+    pub fn project(&self, point: &Vector) -> Point2<f64> {
+        Point2::new(self.axes[0].dot(point), self.axes[1].dot(point))
+    }
+
+    /// The point with the given coordinates.
+    pub fn lift(&self, at: Point2<f64>) -> Vector {
+        self.origin + self.axes[0] * at.x + self.axes[1] * at.y
+    }
+}

@@ -15,6 +15,7 @@
 //! | [`interpolant`] | values, gradients and PDE become cubics |
 //! | [`field`] | values and gradients at points; recovery |
 //! | [`pde`] | differential equations given as text |
+//! | [`refine`] | meshes made finer where that is asked for |
 //! | [`simplices`] | VTK's cells as triangles and tetrahedra |
 //! | [`mesh`] | points, triangles, tetrahedra, frames, neighbours, location |
 //! | [`svg`] | pictures |
@@ -56,6 +57,7 @@ pub mod interpolant;
 pub mod interruption;
 pub mod mesh;
 pub mod pde;
+pub mod refine;
 pub mod simplices;
 pub mod svg;
 pub mod vtk;

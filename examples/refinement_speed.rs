@@ -1,0 +1,82 @@
+//! How long a step of refinement takes: a quarter of a million and a million cells, a tenth of
+//! them marked. `cargo run --release --example refinement_speed`
+
+use std::time::Instant;
+
+use vtu2contour::mesh::{TetrahedronMesh, TriangleMesh, Vector};
+use vtu2contour::refine::{Marks, TriangleMethod, refine_tetrahedra};
+
+fn main() {
+    for n in [354, 708] {
+        let mesh = square(n);
+        let marked = tenth(mesh.triangles().len());
+        for method in [
+            TriangleMethod::LongestEdge,
+            TriangleMethod::NewestVertex,
+            TriangleMethod::RedGreen,
+            TriangleMethod::Centroid,
+        ] {
+            let start = Instant::now();
+            let refined = method.refine(&mesh, &Marks::all(&marked)).map(|refined| refined.cells);
+            tell(
+                mesh.triangles().len(),
+                refined.map_or(0, |cells| cells.len()),
+                start,
+                &format!("{method:?}"),
+            );
+        }
+    }
+    for n in [35, 55] {
+        let mesh = cube(n);
+        let marked = tenth(mesh.tetrahedra().len());
+        let start = Instant::now();
+        let refined = refine_tetrahedra(&mesh, &Marks::all(&marked));
+        let cells = refined.as_ref().map_or(0, |refined| refined.cells.len());
+        tell(mesh.tetrahedra().len(), cells, start, "tetrahedra");
+        // half of the points that this takes
+        let added = refined.map_or(0, |refined| refined.new_points.len());
+        let marks = Marks { max_points: mesh.points().len() + added / 2, ..Marks::all(&marked) };
+        let start = Instant::now();
+        let cells = refine_tetrahedra(&mesh, &marks).map_or(0, |refined| refined.cells.len());
+        tell(mesh.tetrahedra().len(), cells, start, "tetrahedra, bounded");
+    }
+}
+
+fn tell(before: usize, after: usize, start: Instant, what: &str) {
+    println!("{what:20} {before:8} -> {after:8} cells: {:.2} s", start.elapsed().as_secs_f64());
+}
+
+/// Every tenth, in an order without pattern.
+fn tenth(cells: usize) -> Vec<u32> {
+    let mixed = |cell: u32| cell.wrapping_mul(2_654_435_761).rotate_left(7).wrapping_mul(40_503);
+    (0..cells as u32).filter(|&cell| mixed(cell) % 10 == 0).collect()
+}
+
+fn square(n: usize) -> TriangleMesh<'static> {
+    let at = |k: usize| k as f64 / n as f64;
+    let points = (0..=n).flat_map(|j| (0..=n).map(move |i| Vector::new(at(i), at(j), 0.0)));
+    let squares = (0..n).flat_map(|j| (0..n).map(move |i| (j * (n + 1) + i) as u32));
+    let row = n as u32 + 1;
+    let triangles = squares.flat_map(|a| [[a, a + 1, a + 1 + row], [a, a + 1 + row, a + row]]);
+    TriangleMesh::new(points.collect(), triangles.collect()).unwrap()
+}
+
+/// Each small cube in six.
+fn cube(n: usize) -> TetrahedronMesh<'static> {
+    let row = n + 1;
+    let at = |k: usize| k as f64 / n as f64;
+    let points = (0..row * row * row)
+        .map(|k| Vector::new(at(k % row), at(k / row % row), at(k / row / row)));
+    let cubes = (0..n * n * n).map(|k| k % n + k / n % n * row + k / n / n * row * row);
+    let steps = [1, row, row * row];
+    let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    let tetrahedra = cubes.flat_map(|a| {
+        orders.iter().enumerate().map(move |(k, order)| {
+            let [x, y, z] = order.map(|axis| steps[axis]);
+            let corners = [a, a + x, a + x + y, a + x + y + z].map(|point| point as u32);
+            // the last three are turned the other way
+            if k < 3 { corners } else { [corners[1], corners[0], corners[2], corners[3]] }
+        })
+    });
+    TetrahedronMesh::new(points.collect(), tetrahedra.collect()).unwrap()
+}

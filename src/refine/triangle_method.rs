@@ -1,0 +1,39 @@
+//! Ways to refine triangles.
+
+use super::centroid::centroid;
+use super::longest_edge::longest_edge;
+use super::newest_vertex::newest_vertex;
+use super::red_green::red_green;
+use super::{Marks, RefineError, Refinement};
+use crate::mesh::TriangleMesh;
+
+/// A way to refine triangles, in the plane or on a surface in space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TriangleMethod {
+    /// Bisection across the longest edge: no angle falls below half of the smallest of the
+    /// first mesh. The bound on points is met exactly.
+    #[default]
+    LongestEdge,
+    /// Bisection opposite the newest point: triangles of eight shapes for each of the first mesh.
+    NewestVertex,
+    /// Division in four: triangles similar to those of the first mesh, or halves of such. A mark
+    /// for which there is not room for all its points is not kept, nor those after it.
+    RedGreen,
+    /// A point in the middle of each triangle: angles become ever smaller.
+    Centroid,
+}
+
+impl TriangleMethod {
+    /// Refines the marked triangles.
+    ///
+    /// # Errors
+    /// If a mark is no triangle of the mesh, or the state is not that of this mesh.
+    pub fn refine(self, mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
+        match self {
+            Self::LongestEdge => longest_edge(mesh, marks),
+            Self::NewestVertex => newest_vertex(mesh, marks),
+            Self::RedGreen => red_green(mesh, marks),
+            Self::Centroid => centroid(mesh, marks),
+        }
+    }
+}

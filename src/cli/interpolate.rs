@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use vtu2contour::filter::{Refinement, Sampled, refine, sample, sample_image};
+use vtu2contour::filter::{Sampled, Subdivision, sample, sample_image, subdivide};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{
     AtomicFile, Selection, UnstructuredGrid, VtkError, read_grid, write_vti_to, write_vtp_to,
@@ -96,11 +96,11 @@ fn interpolate(
         write_vti_to(&mut out, &image, write_options)?;
         sampled
     } else {
-        let refinement = match (arguments.subdivide, arguments.tolerance) {
-            (Some(parts), _) => Refinement::Parts(parts),
-            (None, tolerance) => Refinement::Tolerance(tolerance.unwrap_or(f64::INFINITY)),
+        let subdivision = match (arguments.subdivide, arguments.tolerance) {
+            (Some(parts), _) => Subdivision::Parts(parts),
+            (None, tolerance) => Subdivision::Tolerance(tolerance.unwrap_or(f64::INFINITY)),
         };
-        let refined = refine(&grid, &options, refinement).map_err(explained)?;
+        let refined = subdivide(&grid, &options, subdivision).map_err(explained)?;
         if !refined.is_fine {
             messages.warning("--tolerance is not kept everywhere: it would take too many cells");
         }

@@ -14,6 +14,8 @@ mod interruptions;
 mod messages;
 mod output;
 mod plan;
+mod refine;
+mod solver;
 mod stats;
 mod warnings;
 
@@ -36,6 +38,7 @@ pub fn run() -> ExitCode {
         Some(Command::Contour(arguments)) => contour::run(&arguments),
         Some(Command::Info(arguments)) => info::run(&arguments),
         Some(Command::Interpolate(arguments)) => interpolate::run(&arguments),
+        Some(Command::Refine(arguments)) => refine::run(&arguments),
         Some(Command::Completions { shell }) => {
             let name = env!("CARGO_PKG_NAME");
             clap_complete::generate(shell, &mut Cli::command(), name, &mut std::io::stdout());

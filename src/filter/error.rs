@@ -4,7 +4,10 @@ use thiserror::Error;
 
 use crate::contour::LevelError;
 use crate::mesh::MeshError;
+use crate::monitor::SelectionError;
 use crate::pde::PdeError;
+use crate::refine::RefineError;
+use crate::refine::delaunay::DelaunayError;
 use crate::simplices::{CellCounts, LeftOut, SplitError};
 
 /// Why a grid cannot be contoured: one line that says what to do.
@@ -102,6 +105,21 @@ pub enum FilterError {
 
     #[error("the refined grid would have {cells} cells, more than {most}: refine it less")]
     TooManyCells { cells: usize, most: usize },
+
+    #[error("no cell array '{name}'; the cell arrays are {available}")]
+    NoSuchCellArray { name: String, available: String },
+
+    #[error("cell array '{name}' cannot mark cells: one number for each is needed")]
+    NotOneACell { name: String },
+
+    #[error(transparent)]
+    Refine(#[from] RefineError),
+
+    #[error(transparent)]
+    Delaunay(#[from] DelaunayError),
+
+    #[error("--select: {0}")]
+    Selection(#[from] SelectionError),
 
     #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
     UnusedPde,

@@ -25,6 +25,7 @@ mod pde_warning;
 mod picture;
 mod preview;
 mod range_warning;
+mod refined_grid;
 mod report;
 mod resample;
 mod sampling;
@@ -47,7 +48,8 @@ pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, 
 pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
 pub use picture::picture;
 pub use preview::{Preview, preview};
+pub use refined_grid::{MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, RefinedGrid, refine};
 pub use report::Report;
 pub use resample::Stencil;
-pub use sampling::{RefinedGrid, Refinement, Sampled, refine, sample, sample_image};
+pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};
 pub use solution::{Domain, Solution};

@@ -13,6 +13,26 @@ pub struct Stencil {
     pub weights: [f64; 4],
 }
 
+/// Applies an expression to the vector of numbers inside `Values`, and wraps the
+/// result as the same type.
+macro_rules! map_numbers {
+    ($values:expr, $numbers:ident => $result:expr, text: $texts:ident => $text:expr) => {
+        match $values {
+            Values::I8($numbers) => Values::I8($result),
+            Values::U8($numbers) => Values::U8($result),
+            Values::I16($numbers) => Values::I16($result),
+            Values::U16($numbers) => Values::U16($result),
+            Values::I32($numbers) => Values::I32($result),
+            Values::U32($numbers) => Values::U32($result),
+            Values::I64($numbers) => Values::I64($result),
+            Values::U64($numbers) => Values::U64($result),
+            Values::F32($numbers) => Values::F32($result),
+            Values::F64($numbers) => Values::F64($result),
+            Values::Strings($texts) => $text,
+        }
+    };
+}
+
 /// Every array of `data` interpolated linearly at the stencils, each of its own
 /// type; integers are rounded to the nearest.
 ///
@@ -40,6 +60,33 @@ pub fn pick(data: &Attributes, tuples: &[u32]) -> Attributes {
     output
 }
 
+/// An array with a component of its last tuples replaced by numbers, one a tuple, where there is
+/// one; integers are rounded to the nearest. Text stays as it is.
+pub fn overwrite(array: &DataArray, component: usize, numbers: &[Option<f64>]) -> DataArray {
+    let (components, first) = (array.components, array.tuples() - numbers.len());
+    let place = |tuple: usize| (first + tuple) * components + component;
+    let values = map_numbers!(
+        &array.values,
+        values => overwritten(values, numbers, place),
+        text: texts => Values::Strings(texts.clone())
+    );
+    DataArray { values, ..like(array) }
+}
+
+fn overwritten<T: Number>(
+    values: &[T],
+    numbers: &[Option<f64>],
+    place: impl Fn(usize) -> usize,
+) -> Vec<T> {
+    let mut values = values.to_vec();
+    for (tuple, number) in numbers.iter().enumerate() {
+        if let Some(number) = number {
+            values[place(tuple)] = T::nearest(*number);
+        }
+    }
+    values
+}
+
 /// Whether an array numbers points or cells of the whole.
 fn is_identity(data: &Attributes, array: &DataArray) -> bool {
     let has_role = |kind| data.active(kind).is_some_and(|active| active.name == array.name);
@@ -62,26 +109,6 @@ fn keep_roles(from: &Attributes, to: &mut Attributes) {
     for (kind, name) in from.active_names() {
         to.set_active(*kind, name);
     }
-}
-
-/// Applies an expression to the vector of numbers inside `Values`, and wraps the
-/// result as the same type.
-macro_rules! map_numbers {
-    ($values:expr, $numbers:ident => $result:expr, text: $texts:ident => $text:expr) => {
-        match $values {
-            Values::I8($numbers) => Values::I8($result),
-            Values::U8($numbers) => Values::U8($result),
-            Values::I16($numbers) => Values::I16($result),
-            Values::U16($numbers) => Values::U16($result),
-            Values::I32($numbers) => Values::I32($result),
-            Values::U32($numbers) => Values::U32($result),
-            Values::I64($numbers) => Values::I64($result),
-            Values::U64($numbers) => Values::U64($result),
-            Values::F32($numbers) => Values::F32($result),
-            Values::F64($numbers) => Values::F64($result),
-            Values::Strings($texts) => $text,
-        }
-    };
 }
 
 fn interpolate_values(array: &DataArray, stencils: &[Stencil]) -> Option<Values> {

@@ -41,7 +41,7 @@ pub struct Sampled {
 
 /// How a grid is refined.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refinement {
+pub enum Subdivision {
     /// Each edge in so many parts.
     Parts(u32),
     /// Where the interpolant is further than this from linear, in the unit of the values.
@@ -50,7 +50,7 @@ pub enum Refinement {
 
 /// A refined grid.
 #[derive(Clone, Debug)]
-pub struct RefinedGrid {
+pub struct SubdividedGrid {
     /// Triangles and tetrahedra with data; those of the cells travel along.
     pub grid: UnstructuredGrid,
     /// Whether the tolerance is kept: not, if that would take too many cells.
@@ -127,13 +127,13 @@ pub fn sample_image(
 ///
 /// # Errors
 /// If the grid has no interpolant, see [`FilterError`], or would have too many cells.
-pub fn refine(
+pub fn subdivide(
     grid: &UnstructuredGrid,
     options: &ContourOptions,
-    refinement: Refinement,
-) -> Result<RefinedGrid, FilterError> {
+    subdivision: Subdivision,
+) -> Result<SubdividedGrid, FilterError> {
     let grid = prepared(Cow::Borrowed(grid), options)?;
-    Source::with(&grid, options, |source| source.refined(refinement))
+    Source::with(&grid, options, |source| source.subdivided(subdivision))
 }
 
 /// An interpolant, and what it was made of.
@@ -249,7 +249,7 @@ impl Source<'_> {
         }
     }
 
-    fn refined(&self, refinement: Refinement) -> Result<RefinedGrid, FilterError> {
+    fn subdivided(&self, subdivision: Subdivision) -> Result<SubdividedGrid, FilterError> {
         let mut made = Made::default();
         if let Some((cubics, domain)) = self.triangles {
             let marked = |piece: &RefinedPiece<3>, points: &[Vector], tolerance: f64| {
@@ -261,7 +261,7 @@ impl Source<'_> {
                 )
             };
             let place = |simplex, at| self.at(&Place::Triangle(simplex, at));
-            made.add(domain, refinement, TRIANGLE, marked, place)?;
+            made.add(domain, subdivision, TRIANGLE, marked, place)?;
         }
         if let Some((cubics, domain)) = self.tetrahedra {
             let marked = |piece: &RefinedPiece<4>, points: &[Vector], tolerance: f64| {
@@ -269,7 +269,7 @@ impl Source<'_> {
                 bent_edges_of_tetrahedron(&cubic, piece, points, tolerance)
             };
             let place = |simplex, at| self.at(&Place::Tetrahedron(simplex, at));
-            made.add(domain, refinement, TETRAHEDRON, marked, place)?;
+            made.add(domain, subdivision, TETRAHEDRON, marked, place)?;
         }
         let from = self.grid;
         let sampled = self.with_data(&made.samples, false);
@@ -284,7 +284,7 @@ impl Source<'_> {
         let parents: Vec<i64> = made.parents.iter().map(|&parent| i64::from(parent)).collect();
         grid.cell_data.push(DataArray::new(ORIGINAL_CELLS, 1, parents));
         grid.field_data = from.field_data.clone();
-        Ok(RefinedGrid { grid, is_fine: !made.is_coarse, sampled })
+        Ok(SubdividedGrid { grid, is_fine: !made.is_coarse, sampled })
     }
 }
 
@@ -307,15 +307,15 @@ impl Made {
     fn add<const CORNERS: usize>(
         &mut self,
         domain: &Domain<CORNERS>,
-        refinement: Refinement,
+        subdivision: Subdivision,
         kind: u8,
         marked: impl Fn(&RefinedPiece<CORNERS>, &[Vector], f64) -> Vec<PieceEdge> + Sync,
         at: impl Fn(usize, [f64; CORNERS]) -> Sample + Sync,
     ) -> Result<(), FilterError> {
         let mesh = &domain.mesh;
-        let parts = match refinement {
-            Refinement::Parts(parts) => parts,
-            Refinement::Tolerance(_) => 1,
+        let parts = match subdivision {
+            Subdivision::Parts(parts) => parts,
+            Subdivision::Tolerance(_) => 1,
         };
         let each = (parts as usize).saturating_pow(CORNERS as u32 - 1);
         let cells = each.saturating_mul(mesh.simplices().len());
@@ -323,7 +323,7 @@ impl Made {
             return Err(FilterError::TooManyCells { cells, most: MOST_CELLS });
         }
         let mut refined = RefinedMesh::uniform(mesh, parts);
-        if let Refinement::Tolerance(tolerance) = refinement {
+        if let Subdivision::Tolerance(tolerance) = subdivision {
             let marked =
                 |piece: &RefinedPiece<CORNERS>, points: &[Vector]| marked(piece, points, tolerance);
             self.is_coarse |= !refined.divide(mesh, MOST_CELLS, marked);

@@ -72,6 +72,16 @@ impl Attributes {
         }
     }
 
+    /// The same without the arrays of these names.
+    pub fn without(&self, names: &[&str]) -> Self {
+        let kept = self.arrays.iter().filter(|array| !names.contains(&array.name.as_str()));
+        let mut kept: Self = kept.cloned().collect();
+        for (kind, name) in self.active_names() {
+            kept.set_active(*kind, name);
+        }
+        kept
+    }
+
     /// The array of that name.
     pub fn get(&self, name: &str) -> Option<&DataArray> {
         self.arrays.iter().find(|array| array.name == name)

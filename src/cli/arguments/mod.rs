@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use vtu2contour::filter::ContourOptions;
+use vtu2contour::filter::{ContourOptions, MarkedBy, RefineOptions};
 use vtu2contour::vtk::WriteOptions;
 
 mod groups;
@@ -47,6 +47,9 @@ const EXAMPLES: &str = "\
   The cubics on a mesh as fine as they need, for ParaView:
     vtu2contour interpolate solution.vtu -o fine.vtu --tolerance 1e-3
 
+  A finer mesh where the cell array eta is large, of at most 2500 points:
+    vtu2contour refine solution.vtu -o finer.vtu --by eta --max-points 2500
+
 Without a gradient array (say where it is with -g) gradients are recovered from
 the values. 'vtu2contour --help' explains every option.";
 
@@ -85,6 +88,8 @@ pub enum Command {
     Info(InfoArguments),
     /// Evaluate the cubics at given points, on a finer mesh or on a regular grid
     Interpolate(InterpolateArguments),
+    /// Refine the mesh where that is asked for, with all its data, in one step or several
+    Refine(RefineArguments),
     /// Print completions for a shell, to be sourced by it
     Completions {
         /// The shell
@@ -165,6 +170,116 @@ impl InterpolateArguments {
     /// What the arguments say of the interpolant.
     pub fn options(&self) -> ContourOptions {
         self.interpolant.options(self.scalars.options())
+    }
+
+    /// How files are written.
+    pub fn write_options(&self) -> WriteOptions {
+        WriteOptions { encoding: self.encoding.into(), ..WriteOptions::default() }
+    }
+}
+
+/// Arguments of `refine`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("marking").required(true))]
+pub struct RefineArguments {
+    /// The grid (.vtu .pvtu .vtp .pvtp .vtk), or a step of a series (.pvd)
+    ///
+    /// Its solids are refined, or if it has none its two-dimensional cells. All become
+    /// tetrahedra or triangles first.
+    pub input: PathBuf,
+
+    /// The refined mesh: .vtu
+    ///
+    /// New points have the solution's value and gradient of its cubics, other point arrays are
+    /// interpolated linearly, cells have the data of those they are part of. OriginalCellIds
+    /// says which these are, ParentEdge between which two points a new point was put (-1: not
+    /// new, or inside a cell).
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Refine the cells with another number than 0 in this cell array
+    ///
+    /// In several steps their parts are refined again.
+    #[arg(long, value_name = "NAME", group = "marking", help_heading = "Where")]
+    pub marks: Option<String>,
+
+    /// Refine by the numbers of this cell array, such as an error indicator: see --select
+    #[arg(long, value_name = "NAME", group = "marking", help_heading = "Where")]
+    pub by: Option<String>,
+
+    /// Which cells --by selects: average:K, above K times the average; fraction:F, this part
+    /// of the cells; bulk:F, the fewest cells with this part of the sum; above:V, those
+    /// above V
+    #[arg(
+        long, value_name = "HOW:NUMBER", default_value = "average:2", requires = "by",
+        value_parser = values::selection, help_heading = "Where"
+    )]
+    pub select: vtu2contour::monitor::Selection,
+
+    /// How triangles are divided; tetrahedra are always bisected
+    #[arg(
+        long, value_name = "M", value_enum, default_value_t = names::RefineMethodName::Bisect,
+        help_heading = "Refinement"
+    )]
+    method: names::RefineMethodName,
+
+    /// Cell array whose numbers tell regions: 'delaunay' keeps the edges between them; the
+    /// other methods keep all sides of cells
+    #[arg(long, value_name = "NAME", help_heading = "Refinement")]
+    pub regions: Option<String>,
+
+    /// The most points that the refined mesh may have; bisection and centroids of triangles
+    /// meet it exactly
+    #[arg(long, value_name = "N", help_heading = "Refinement")]
+    pub max_points: Option<usize>,
+
+    /// So many steps of refinement, each of the mesh of the one before
+    #[arg(
+        long, value_name = "N", default_value_t = 1, help_heading = "Refinement",
+        value_parser = clap::value_parser!(u16).range(1..=1000)
+    )]
+    pub steps: u16,
+
+    /// A command that solves on a mesh: run after each step, and before the first if the array
+    /// of --by is not there
+    ///
+    /// A shell runs it. {input} stands for a .vtu with the mesh and its data, {output} for the
+    /// .vtu that the command writes: the same points and cells, with its own arrays. If it
+    /// fails, the last mesh that it solved on is written.
+    #[arg(long, value_name = "COMMAND", help_heading = "Refinement")]
+    pub solver: Option<String>,
+
+    #[command(flatten)]
+    pub scalars: ScalarArguments,
+
+    #[command(flatten)]
+    pub interpolant: InterpolantArguments,
+
+    /// Encoding of the arrays in the output, and in what the solver reads
+    #[arg(
+        long, value_name = "E", value_enum, default_value_t = names::EncodingName::Raw,
+        help_heading = "Output"
+    )]
+    encoding: names::EncodingName,
+
+    #[command(flatten)]
+    pub running: RunArguments,
+}
+
+impl RefineArguments {
+    /// What the arguments ask for.
+    pub fn options(&self) -> RefineOptions {
+        let marked = match (&self.marks, &self.by) {
+            (Some(name), _) => MarkedBy::Marks(name.clone()),
+            (None, name) => MarkedBy::Array(name.clone().unwrap_or_default(), self.select),
+        };
+        RefineOptions {
+            method: self.method.into(),
+            marked,
+            max_points: self.max_points,
+            regions: self.regions.clone(),
+            solution: self.interpolant.options(self.scalars.options()),
+        }
     }
 
     /// How files are written.

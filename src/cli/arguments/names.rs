@@ -2,8 +2,9 @@
 
 use clap::ValueEnum;
 use vtu2contour::contour::lines::Method;
-use vtu2contour::filter::InterpolantKind;
+use vtu2contour::filter::{InterpolantKind, RefineMethod};
 use vtu2contour::interpolant::Predictor;
+use vtu2contour::refine::TriangleMethod;
 use vtu2contour::vtk::Encoding;
 
 /// Names of the interpolants.
@@ -55,6 +56,33 @@ pub enum EncodingName {
     Base64,
     /// Numbers as text
     Ascii,
+}
+
+/// Names of the ways to refine triangles.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum RefineMethodName {
+    /// Longest-edge bisection: no angle falls below half of the smallest
+    Bisect,
+    /// Newest-vertex bisection: few shapes of triangles
+    NewestVertex,
+    /// Division in four, and in two for the time being where that has to fit
+    RedGreen,
+    /// A point in the middle of each: angles become ever smaller
+    Centroid,
+    /// The thesis' hybrid in a Delaunay triangulation: circumcenters, edges, middles
+    Delaunay,
+}
+
+impl From<RefineMethodName> for RefineMethod {
+    fn from(name: RefineMethodName) -> Self {
+        match name {
+            RefineMethodName::Bisect => Self::Divide(TriangleMethod::LongestEdge),
+            RefineMethodName::NewestVertex => Self::Divide(TriangleMethod::NewestVertex),
+            RefineMethodName::RedGreen => Self::Divide(TriangleMethod::RedGreen),
+            RefineMethodName::Centroid => Self::Divide(TriangleMethod::Centroid),
+            RefineMethodName::Delaunay => Self::Delaunay,
+        }
+    }
 }
 
 impl From<Interpolant> for InterpolantKind {

@@ -1,6 +1,7 @@
 //! Values that options take, read from text.
 
 use vtu2contour::filter::Component;
+use vtu2contour::monitor::Selection;
 
 /// A time of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +79,21 @@ pub fn counts(text: &str) -> Result<[usize; 3], String> {
         Some(total) if total <= MOST => Ok(counts),
         _ => Err(format!("more than {MOST} points")),
     }
+}
+
+/// Reads `average:K`, `fraction:F`, `bulk:F` or `above:V`.
+pub fn selection(text: &str) -> Result<Selection, String> {
+    let known = "give average:K, fraction:F, bulk:F or above:V";
+    let (how, number) = text.split_once(':').ok_or(known)?;
+    let number = level(number)?;
+    let selection = match how.trim() {
+        "average" => Selection::AboveAverage(number),
+        "fraction" => Selection::Fraction(number),
+        "bulk" => Selection::Bulk(number),
+        "above" => Selection::Above(number),
+        _ => return Err(known.to_owned()),
+    };
+    selection.select(&[]).map(|_| selection).map_err(|error| error.to_string())
 }
 
 /// Reads `NAME=V`.

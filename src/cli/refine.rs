@@ -1,0 +1,158 @@
+//! `vtu2contour refine`: a finer mesh where that is asked for, with all data.
+
+use anyhow::{Context, Result, bail};
+use vtu2contour::filter::{ORIGINAL_CELLS, PARENT_EDGE, RefinedGrid, refine};
+use vtu2contour::vtk::{AtomicFile, UnstructuredGrid, WriteOptions, write_vtu_to};
+
+use super::arguments::RefineArguments;
+use super::input::{Arrays, Input, Part};
+use super::messages::Messages;
+use super::solver::Solver;
+
+/// Runs the job.
+pub fn run(arguments: &RefineArguments) -> Result<()> {
+    let extension = arguments.output.extension().and_then(|extension| extension.to_str());
+    if !extension.is_some_and(|extension| extension.eq_ignore_ascii_case("vtu")) {
+        bail!("cannot write '{}': a refined mesh is a .vtu", arguments.output.display());
+    }
+    if arguments.steps > 1 && arguments.by.is_some() && arguments.solver.is_none() {
+        bail!(
+            "--by tells nothing of refined cells: leave --steps out, or give --solver, which \
+             writes the array anew"
+        );
+    }
+    let running = &arguments.running;
+    if let Some(threads) = running.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .context("cannot start the threads")?;
+    }
+    let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
+    let result = Job::new(arguments, &messages).and_then(Job::run);
+    messages.finish();
+    result
+}
+
+/// Steps of refinement, and of solving between them.
+struct Job<'a> {
+    arguments: &'a RefineArguments,
+    solver: Option<Solver<'a>>,
+    messages: &'a Messages,
+    input: Input,
+    out: AtomicFile,
+}
+
+impl<'a> Job<'a> {
+    fn new(arguments: &'a RefineArguments, messages: &'a Messages) -> Result<Self> {
+        let options = arguments.write_options();
+        let solver = arguments.solver.as_deref().map(|command| Solver::new(command, options));
+        messages.stage("reading");
+        Ok(Self {
+            arguments,
+            solver: solver.transpose()?,
+            messages,
+            input: Input::open(&arguments.input, arguments.scalars.time, false)?,
+            out: AtomicFile::create(&arguments.output)?,
+        })
+    }
+
+    fn run(mut self) -> Result<()> {
+        let [part] = &self.input.parts[..] else {
+            bail!(
+                "'{}' is a series of {} files: choose a step, with --time T, first or last",
+                self.arguments.input.display(),
+                self.input.parts.len()
+            );
+        };
+        let mut grid = begun(self.input.read(part, Arrays::All)?.data);
+        let mut warned = Vec::new();
+        if let (Some(solver), true) = (&self.solver, self.lacks_array(&grid)) {
+            self.messages.stage("solving");
+            grid = solver.solve(&grid)?;
+        }
+        for step in 1..=self.arguments.steps {
+            let next = self.step(part, step, &grid, &mut warned);
+            let next = match next {
+                Ok(next) => next,
+                // nothing was refined yet: no output
+                Err(error) if step == 1 => return Err(error),
+                Err(error) => {
+                    write(&mut self.out, &grid, self.arguments.write_options())?;
+                    self.out.commit()?;
+                    bail!(
+                        "{error}; '{}' has the mesh of step {}",
+                        self.arguments.output.display(),
+                        step - 1
+                    );
+                }
+            };
+            let Some(next) = next else { break };
+            grid = next;
+        }
+        write(&mut self.out, &grid, self.arguments.write_options())?;
+        Ok(self.out.commit()?)
+    }
+
+    /// Whether the array that tells where to refine is not there yet.
+    fn lacks_array(&self, grid: &UnstructuredGrid) -> bool {
+        let by = self.arguments.by.as_deref();
+        by.is_some_and(|name| grid.cell_data.get(name).is_none())
+    }
+
+    /// The grid of the next step, solved; nothing if there was nothing to refine, or no room.
+    fn step(
+        &self,
+        part: &Part,
+        step: u16,
+        grid: &UnstructuredGrid,
+        warned: &mut Vec<String>,
+    ) -> Result<Option<UnstructuredGrid>> {
+        self.messages.stage(&format!("refining, step {step}"));
+        let refined = refine(grid, &self.arguments.options());
+        let refined = refined.map_err(|error| self.input.explained(part, &error))?;
+        self.tell(step, &refined, warned);
+        if refined.added == 0 && step > 1 {
+            return Ok(None);
+        }
+        let Some(solver) = &self.solver else { return Ok(Some(refined.grid)) };
+        self.messages.stage(&format!("solving, step {step}"));
+        Ok(Some(solver.solve(&refined.grid)?))
+    }
+
+    /// Tells what was done, and once what people should know.
+    fn tell(&self, step: u16, refined: &RefinedGrid, warned: &mut Vec<String>) {
+        let RefinedGrid { grid, marked, added, label, dropped, left_out, warnings } = refined;
+        self.messages.detail(&format!(
+            "step {step}: {marked} cells marked, {added} points added: {} points, {} cells{}",
+            grid.points.tuples(),
+            grid.types.len(),
+            label.as_ref().map_or(String::new(), |label| format!("; interpolated '{label}'"))
+        ));
+        let mut texts = warnings.clone();
+        if left_out.total() > 0 {
+            texts.push(format!("left out: {left_out}"));
+        }
+        if dropped.total() > left_out.total() {
+            texts.push(format!("not in the refined mesh, for their dimension is less: {dropped}"));
+        }
+        for text in texts {
+            if !warned.contains(&text) {
+                self.messages.warning(&text);
+                warned.push(text);
+            }
+        }
+    }
+}
+
+/// A grid without what an earlier run said of its own steps: numbers of cells and points are to
+/// be those of this grid.
+fn begun(mut grid: UnstructuredGrid) -> UnstructuredGrid {
+    grid.cell_data = grid.cell_data.without(&[ORIGINAL_CELLS]);
+    grid.point_data = grid.point_data.without(&[PARENT_EDGE]);
+    grid
+}
+
+fn write(out: &mut AtomicFile, grid: &UnstructuredGrid, options: WriteOptions) -> Result<()> {
+    Ok(write_vtu_to(out, grid, options)?)
+}

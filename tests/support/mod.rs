@@ -10,6 +10,7 @@ pub mod distance;
 pub mod domains;
 pub mod meshes;
 pub mod order;
+pub mod p1;
 pub mod polynomial;
 pub mod problem4;
 pub mod problems_3d;

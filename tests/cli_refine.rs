@@ -119,6 +119,30 @@ fn all_data_are_carried() {
     }
 }
 
+/// Points that are moved have the cubic's values where they are then.
+#[test]
+fn data_follow_points_that_are_moved() {
+    let mut grid = square();
+    // the middle elsewhere
+    let mut points = grid.points.to_f64().unwrap();
+    points[3 * 4] = 0.8;
+    grid.points = DataArray::new("Points", 3, points);
+    grid.point_data = Attributes::new();
+    let bench = bench(&with_data(grid));
+    for smoothing in ["laplacian", "optimised"] {
+        let job = ["refine", "in.vtu", "-o", "out.vtu", "-a", "u", "--marks", "eta", "--smooth"];
+        bench.succeed(&[&job[..], &[smoothing, "--pde", PDE[0]]].concat());
+        let fine = read(&bench, "out.vtu");
+        let middle = points_of(&fine)[4];
+        assert!(middle != [0.8, 0.5, 0.0], "{middle:?}");
+        let (u, linear) = (numbers(&fine.point_data, "u"), numbers(&fine.point_data, "linear"));
+        for (n, p) in points_of(&fine).iter().enumerate() {
+            assert!((u[n] - cubic(*p).0).abs() < 1e-12, "{n} {p:?}");
+            assert!((linear[n] - (1.0 + 2.0 * p[0] - p[1])).abs() < 1e-12);
+        }
+    }
+}
+
 #[test]
 fn a_bound_on_points_is_met() {
     let bench = bench(&square());

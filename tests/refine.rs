@@ -10,7 +10,7 @@ use support::meshes::{Random, grid, random_square};
 use support::tetrahedra::{graded_cube, random_cube};
 use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
 use vtu2contour::refine::{
-    Marks, NewPoint, RefineError, Refinement, TriangleMethod, refine_tetrahedra,
+    Marks, NewPoint, RefineError, Refinement, Smoothing, TriangleMethod, refine_tetrahedra, smooth,
 };
 
 use TriangleMethod::{Centroid, LongestEdge, NewestVertex, RedGreen};
@@ -176,6 +176,54 @@ proptest! {
                 Centroid => 0.0,
             };
             prop_assert!(smallest_of(&last) >= bound * (1.0 - 1e-9), "{method:?}: {} of {smallest}", smallest_of(&last));
+        }
+    }
+
+    /// Smoothing turns no triangle over and makes the worst no worse; what is fixed stays.
+    #[test]
+    fn smoothing_keeps_the_mesh(seed in 0..1_u64 << 40, count in 3..60_usize) {
+        let random = &mut Random(seed);
+        let mesh = random_square(random, count);
+        let cells = chosen(random, mesh.triangles().len(), 0.3);
+        let regions: Vec<u32> = (0..mesh.triangles().len() as u32).map(|t| t / 7 % 2).collect();
+        for smoothing in [Smoothing::Laplacian, Smoothing::Optimised] {
+            let before = RedGreen.refine(&mesh, &Marks::all(&cells)).unwrap();
+            let mut after = before.clone();
+            smooth(&mesh, &mut after, &regions, smoothing, 10);
+            let shape = |refined: &Refinement<3>, cell: usize| {
+                let corners = refined.cells[cell].map(|p| refined.points[p as usize]);
+                let squares: f64 = (0..3).map(|n| (corners[n] - corners[(n + 1) % 3]).norm_squared()).sum();
+                size(corners) / squares
+            };
+            let all = || 0..before.cells.len();
+            let worst = |refined| all().map(|cell| shape(refined, cell)).fold(1.0, f64::min);
+            prop_assert!(worst(&before) > 0.0 && worst(&after) >= worst(&before));
+            let area: f64 = all().map(|cell| size(after.cells[cell].map(|p| after.points[p as usize]))).sum();
+            prop_assert!((area - 2.0).abs() < 1e-12);
+            // boundary and interfaces are where they were, so every region has its area
+            for (side, cells) in sides(&before.cells) {
+                let region = |cell: usize| regions[before.parents[cell] as usize];
+                if cells.len() == 1 || region(cells[0]) != region(cells[1]) {
+                    for point in side {
+                        prop_assert_eq!(before.points[point as usize], after.points[point as usize]);
+                    }
+                }
+            }
+            let old = mesh.points().len();
+            let noted: HashSet<u32> = after.moved.iter().map(|moved| moved.point).collect();
+            for point in 0..old {
+                let is_moved = before.points[point] != after.points[point];
+                prop_assert_eq!(is_moved, noted.contains(&(point as u32)));
+            }
+            for moved in &after.moved {
+                let there = mesh.position(moved.cell as usize, &moved.at);
+                prop_assert!((there - after.points[moved.point as usize]).norm() < 1e-12);
+            }
+            for (place, point) in after.new_points.iter().zip(&after.points[old..]) {
+                if let NewPoint::Inside { cell, at } = place {
+                    prop_assert!((mesh.position(*cell as usize, at) - point).norm() < 1e-12);
+                }
+            }
         }
     }
 

@@ -17,7 +17,10 @@ use crate::interpolant::Pieces;
 use crate::mesh::{PointLocator, SimplexMesh, Vector};
 use crate::monitor::Selection;
 use crate::refine::delaunay::{DelaunayOptions, delaunay};
-use crate::refine::{Marks, NewPoint, RefineError, Refinement, TriangleMethod, refine_tetrahedra};
+use crate::refine::{
+    Marks, MovedPoint, NewPoint, RefineError, Refinement, Smoothing, TriangleMethod,
+    refine_tetrahedra, smooth,
+};
 use crate::simplices::{CellCounts, LeftOut};
 use crate::vtk::{Attributes, DataArray, UnstructuredGrid, Values};
 
@@ -58,10 +61,13 @@ pub struct RefineOptions {
     pub method: RefineMethod,
     /// Which cells.
     pub marked: MarkedBy,
+    /// How the points of triangles are moved after they were divided, and in how many sweeps
+    /// at most; those of tetrahedra stay.
+    pub smoothing: Option<(Smoothing, usize)>,
     /// The most points that the refined grid may have.
     pub max_points: Option<usize>,
-    /// A cell array: where its numbers differ the Delaunay hybrid keeps the edges between. The
-    /// other methods keep all sides of cells.
+    /// A cell array: edges between cells of different numbers are kept by the Delaunay hybrid
+    /// and by smoothing. Division by itself keeps all sides of cells.
     pub regions: Option<String>,
     /// What is known of the solution.
     pub solution: ContourOptions,
@@ -115,12 +121,18 @@ pub fn refine(
             job.run(&part, TETRAHEDRON, state, refine, known, cubics)
         }
         (None, Some(part)) => {
-            let refine = |regions: &[u32], marks: &Marks| match options.method {
-                RefineMethod::Divide(method) => Ok(method.refine(&part.mesh, marks)?),
-                RefineMethod::Delaunay => {
-                    let options = DelaunayOptions { regions, ..DelaunayOptions::default() };
-                    Ok(delaunay(&part.mesh, marks, &options)?)
+            let refine = |regions: &[u32], marks: &Marks| {
+                let mut refined = match options.method {
+                    RefineMethod::Divide(method) => method.refine(&part.mesh, marks)?,
+                    RefineMethod::Delaunay => {
+                        let options = DelaunayOptions { regions, ..DelaunayOptions::default() };
+                        delaunay(&part.mesh, marks, &options)?
+                    }
+                };
+                if let Some((smoothing, sweeps)) = options.smoothing {
+                    smooth(&part.mesh, &mut refined, regions, smoothing, sweeps);
                 }
+                Ok(refined)
             };
             let state = match options.method {
                 RefineMethod::Divide(TriangleMethod::NewestVertex) => Some(NEWEST_VERTEX_STATE),
@@ -275,7 +287,10 @@ impl Job<'_> {
         let old = (0..part.mesh.points().len() as u32)
             .map(|point| Stencil { points: [point; 4], weights: [1.0, 0.0, 0.0, 0.0] });
         let new = refined.new_points.iter().map(|place| stencil(&part.mesh, place));
-        let stencils: Vec<Stencil> = old.chain(new).collect();
+        let mut stencils: Vec<Stencil> = old.chain(new).collect();
+        for &MovedPoint { point, cell, at } in &refined.moved {
+            stencils[point as usize] = stencil(&part.mesh, &NewPoint::Inside { cell, at });
+        }
         grid.point_data = interpolate(&self.grid.point_data, &stencils);
         grid.point_data.push(self.parent_edges(refined));
         grid
@@ -339,10 +354,11 @@ fn stencil<const CORNERS: usize>(
     stencil
 }
 
-/// A value and a gradient; not finite where there are none.
-type Sample = (f64, Vector);
+/// A point, a value and a gradient; not finite where there are none.
+type Sample = (u32, f64, Vector);
 
-/// The cubics at the new points: the mean over the cells of the input around each.
+/// The cubics at points that are new or elsewhere: the mean over the cells of the input around
+/// each.
 fn samples<const CORNERS: usize>(
     mesh: &SimplexMesh<CORNERS>,
     refined: &Refinement<CORNERS>,
@@ -375,9 +391,13 @@ fn samples<const CORNERS: usize>(
             sum = (sum.0 + taylor.value, sum.1 + taylor.gradient);
         }
         let count = places.len() as f64;
-        (sum.0 / count, sum.1 / count)
+        ((first + point) as u32, sum.0 / count, sum.1 / count)
     };
-    refined.new_points.par_iter().enumerate().map(sample).collect()
+    let moved = refined.moved.par_iter().map(|&MovedPoint { point, cell, at }| -> Sample {
+        let taylor = cubics.taylor(cell as usize, &at);
+        (point, taylor.value, taylor.gradient)
+    });
+    moved.chain(refined.new_points.par_iter().enumerate().map(sample)).collect()
 }
 
 /// Where a place is in a cell, by the weights of its corners; nothing if these do not have it.
@@ -395,8 +415,8 @@ fn weights<const CORNERS: usize>(
     Some(at)
 }
 
-/// Puts the cubics' values, and their gradients if these are an array, at the new points, which
-/// are the last. Where they are not finite the linear ones stay.
+/// Puts the cubics' values, and their gradients if these are an array, at the points. Where they
+/// are not finite the linear ones stay.
 fn put_samples(
     data: &mut Attributes,
     options: &ContourOptions,
@@ -404,9 +424,10 @@ fn put_samples(
     origin: &GradientOrigin,
     samples: &[Sample],
 ) {
-    let is_known = |sample: &Sample| sample.0.is_finite() && sample.1.iter().all(|x| x.is_finite());
-    let numbers = |number: &dyn Fn(&Sample) -> f64| -> Vec<Option<f64>> {
-        samples.iter().map(|sample| is_known(sample).then(|| number(sample))).collect()
+    let is_known =
+        |sample: &&Sample| sample.1.is_finite() && sample.2.iter().all(|x| x.is_finite());
+    let numbers = |number: &dyn Fn(&Sample) -> f64| -> Vec<(u32, f64)> {
+        samples.iter().filter(is_known).map(|sample| (sample.0, number(sample))).collect()
     };
     // lengths of vectors have no place to be put
     let component = match options.component {
@@ -416,18 +437,18 @@ fn put_samples(
     };
     let label = &known.solution.label;
     let name = options.array.as_deref().unwrap_or(label);
-    let mut put = |name: &str, component: usize, numbers: &[Option<f64>]| {
+    let mut put = |name: &str, component: usize, numbers: &[(u32, f64)]| {
         if let Some(array) = data.get(name).filter(|array| component < array.components) {
             let array = overwrite(array, component, numbers);
             data.push(array);
         }
     };
     let Some(component) = component else { return };
-    put(name, component, &numbers(&|sample| sample.0));
+    put(name, component, &numbers(&|sample| sample.1));
     let GradientOrigin::Array(gradient) = origin else { return };
     let parts: Vec<&str> = gradient.split(',').map(str::trim).collect();
     for axis in 0..3 {
-        let along = numbers(&|sample| sample.1[axis]);
+        let along = numbers(&|sample| sample.2[axis]);
         match parts[..] {
             [_] => put(gradient, 3 * component + axis, &along),
             _ => parts.get(axis).into_iter().for_each(|part| put(part, 0, &along)),

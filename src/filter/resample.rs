@@ -60,14 +60,13 @@ pub fn pick(data: &Attributes, tuples: &[u32]) -> Attributes {
     output
 }
 
-/// An array with a component of its last tuples replaced by numbers, one a tuple, where there is
-/// one; integers are rounded to the nearest. Text stays as it is.
-pub fn overwrite(array: &DataArray, component: usize, numbers: &[Option<f64>]) -> DataArray {
-    let (components, first) = (array.components, array.tuples() - numbers.len());
-    let place = |tuple: usize| (first + tuple) * components + component;
+/// An array with a component of some tuples replaced by numbers; integers are rounded to the
+/// nearest. Text stays as it is.
+pub fn overwrite(array: &DataArray, component: usize, numbers: &[(u32, f64)]) -> DataArray {
+    let components = array.components;
     let values = map_numbers!(
         &array.values,
-        values => overwritten(values, numbers, place),
+        values => overwritten(values, components, component, numbers),
         text: texts => Values::Strings(texts.clone())
     );
     DataArray { values, ..like(array) }
@@ -75,14 +74,13 @@ pub fn overwrite(array: &DataArray, component: usize, numbers: &[Option<f64>]) -
 
 fn overwritten<T: Number>(
     values: &[T],
-    numbers: &[Option<f64>],
-    place: impl Fn(usize) -> usize,
+    components: usize,
+    component: usize,
+    numbers: &[(u32, f64)],
 ) -> Vec<T> {
     let mut values = values.to_vec();
-    for (tuple, number) in numbers.iter().enumerate() {
-        if let Some(number) = number {
-            values[place(tuple)] = T::nearest(*number);
-        }
+    for &(tuple, number) in numbers {
+        values[tuple as usize * components + component] = T::nearest(number);
     }
     values
 }

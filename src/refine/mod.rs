@@ -6,7 +6,7 @@
 //! what was a side of one: boundaries, and interfaces between regions of cells, stay where
 //! they are.
 //!
-//! In the plane and on surfaces ([`TriangleMethod`]), and in space ([`refine_tetrahedra`]).
+//! In the plane and on surfaces ([`TriangleMethod`], [`smooth`]), and in space ([`refine_tetrahedra`]).
 
 mod centroid;
 pub mod delaunay;
@@ -16,11 +16,13 @@ mod marks;
 mod newest_vertex;
 mod red_green;
 mod refinement;
+mod smoothing;
 mod tetrahedron_bisection;
 mod triangle_bisection;
 mod triangle_method;
 
 pub use marks::{Marks, RefineError};
-pub use refinement::{NewPoint, Refinement};
+pub use refinement::{MovedPoint, NewPoint, Refinement};
+pub use smoothing::{Smoothing, smooth};
 pub use tetrahedron_bisection::refine_tetrahedra;
 pub use triangle_method::TriangleMethod;

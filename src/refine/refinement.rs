@@ -6,8 +6,8 @@ use crate::mesh::Vector;
 /// whatever data the input has can be carried over.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Refinement<const CORNERS: usize> {
-    /// The points, in the mesh's unit of length: those of the input first, in their order,
-    /// then the new ones.
+    /// The points, in the mesh's unit of length: those of the input first, in their order and
+    /// where they were (but for `moved`), then the new ones.
     pub points: Vec<Vector>,
     /// The cells, as numbers of their points, turned as those of the input are.
     pub cells: Vec<[u32; CORNERS]>,
@@ -16,6 +16,8 @@ pub struct Refinement<const CORNERS: usize> {
     pub parents: Vec<u32>,
     /// Where each point past those of the input lies.
     pub new_points: Vec<NewPoint<CORNERS>>,
+    /// Points of the input that were moved, ascending.
+    pub moved: Vec<MovedPoint<CORNERS>>,
     /// What the method has to know to go on with this mesh, one number a cell; nothing where
     /// it needs none.
     pub state: Vec<u16>,
@@ -38,4 +40,15 @@ pub enum NewPoint<const CORNERS: usize> {
         /// Barycentric coordinates there.
         at: [f64; CORNERS],
     },
+}
+
+/// A point of the input that is elsewhere now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovedPoint<const CORNERS: usize> {
+    /// The point.
+    pub point: u32,
+    /// The cell of the input in which it lies now.
+    pub cell: u32,
+    /// Barycentric coordinates there.
+    pub at: [f64; CORNERS],
 }

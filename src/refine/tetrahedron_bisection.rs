@@ -237,6 +237,7 @@ impl<'a> Bisection<'a> {
             cells: parts().map(|part| self.tetrahedra[part].corners).collect(),
             parents: parts().map(|part| self.parents[part]).collect(),
             new_points: Vec::new(),
+            moved: Vec::new(),
             state: parts().map(|part| self.tetrahedra[part].marks.code()).collect(),
         };
         refined.new_points = self.places(&refined);

@@ -178,6 +178,9 @@ impl InterpolateArguments {
     }
 }
 
+/// Sweeps of smoothing, at most: more move points by little.
+const SWEEPS: usize = 10;
+
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("marking").required(true))]
@@ -223,8 +226,13 @@ pub struct RefineArguments {
     )]
     method: names::RefineMethodName,
 
-    /// Cell array whose numbers tell regions: 'delaunay' keeps the edges between them; the
-    /// other methods keep all sides of cells
+    /// Move the points of triangles after they were divided, so that these have better shapes.
+    /// Points on the boundary and between --regions stay
+    #[arg(long, value_name = "S", value_enum, help_heading = "Refinement")]
+    smooth: Option<names::SmoothingName>,
+
+    /// Cell array whose numbers tell regions: 'delaunay' and --smooth keep the edges between
+    /// them; division keeps all sides of cells anyway
     #[arg(long, value_name = "NAME", help_heading = "Refinement")]
     pub regions: Option<String>,
 
@@ -276,6 +284,7 @@ impl RefineArguments {
         RefineOptions {
             method: self.method.into(),
             marked,
+            smoothing: self.smooth.map(|name| (name.into(), SWEEPS)),
             max_points: self.max_points,
             regions: self.regions.clone(),
             solution: self.interpolant.options(self.scalars.options()),

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use vtu2contour::contour::lines::Method;
 use vtu2contour::filter::{InterpolantKind, RefineMethod};
 use vtu2contour::interpolant::Predictor;
-use vtu2contour::refine::TriangleMethod;
+use vtu2contour::refine::{Smoothing, TriangleMethod};
 use vtu2contour::vtk::Encoding;
 
 /// Names of the interpolants.
@@ -71,6 +71,24 @@ pub enum RefineMethodName {
     Centroid,
     /// The thesis' hybrid in a Delaunay triangulation: circumcenters, edges, middles
     Delaunay,
+}
+
+/// Names of the ways to move points.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum SmoothingName {
+    /// Towards the mean of the neighbours
+    Laplacian,
+    /// Towards where the worst triangle would be equilateral
+    Optimised,
+}
+
+impl From<SmoothingName> for Smoothing {
+    fn from(name: SmoothingName) -> Self {
+        match name {
+            SmoothingName::Laplacian => Self::Laplacian,
+            SmoothingName::Optimised => Self::Optimised,
+        }
+    }
 }
 
 impl From<RefineMethodName> for RefineMethod {

@@ -233,7 +233,7 @@ impl<'a> Job<'a> {
         });
         let new_points = new_points.collect();
         let (cells, parents) = cells.into_iter().unzip();
-        Refinement { points, cells, parents, new_points, state: Vec::new() }
+        Refinement { points, cells, parents, new_points, ..Refinement::default() }
     }
 
     /// The middle of a feature, in space: that of the straight edge unless a curve moved it.

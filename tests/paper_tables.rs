@@ -109,12 +109,13 @@ fn ours_is_better_than_the_thesis_way() {
 /// What the reference solution of problem 1 is good for: errors down to 1e-8.
 #[test]
 fn the_reference_is_fine_enough() {
-    let coarser = Reference::new(8, 6);
+    // at the corners, which decide, half as fine: the error is some sixteen times as large
+    let coarser = Reference::new(9, 8);
     let mut random = Random(1);
     for _ in 0..200 {
         let point = Vector::new(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), 0.0);
         let ((value, slope), (other, other_slope)) = (reference().at(&point), coarser.at(&point));
-        assert!((value - other).abs() < 1e-9, "{point}: {value} {other}");
+        assert!((value - other).abs() < 5e-9, "{point}: {value} {other}");
         assert!((slope - other_slope).norm() < 2e-6, "{point}: {slope} {other_slope}");
         // the equation, by differences of the gradient
         let step = 1e-3;
@@ -184,7 +185,9 @@ fn tables_5_12_and_5_13() {
 #[test]
 fn figure_5_29() {
     let problem = problem(2);
-    for method in METHODS.into_iter().filter(|method| *method != Method::Uniform) {
+    // a piece of the full quartic is given up by the size of its coefficients, which are not
+    // those of its mirror image
+    for method in [Method::SurfaceArea, Method::Defect, Method::Stepwise] {
         let mut mesh = symmetric_grid(6);
         while mesh.points().len() < 1000 {
             mesh = method.step(&mesh, &problem, usize::MAX);

@@ -16,10 +16,10 @@ use vtu2contour::mesh::Vector;
 pub const BETA: f64 = 20.0;
 
 /// Degree of the polynomials on each element.
-const DEGREE: usize = 7;
+const DEGREE: usize = 9;
 
 /// Elements from each side to the middle, each so many times as long as the one before it.
-const ELEMENTS: usize = 9;
+const ELEMENTS: usize = 10;
 const GROWTH: f64 = 2.0;
 
 /// The solution.

@@ -185,7 +185,7 @@ impl Method {
     }
 
     /// The monitor on a mesh with the solution's data.
-    fn monitor(self, mesh: &TriangleMesh, problem: &Problem) -> Vec<f64> {
+    pub fn monitor(self, mesh: &TriangleMesh, problem: &Problem) -> Vec<f64> {
         let data = Data::new(mesh, problem);
         let (equation, options) = (problem.equation(), DeiOptions::default());
         let (field, points) = (data.field(), SamplePoints::Fixed);

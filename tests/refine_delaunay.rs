@@ -10,9 +10,11 @@ use vtu2contour::mesh::{TriangleMesh, Vector};
 use vtu2contour::refine::delaunay::{DelaunayError, DelaunayOptions, delaunay};
 use vtu2contour::refine::{Marks, NewPoint, RefineError, Refinement};
 
-use support::checked::{boundary, check, is_delaunay, least_angle, mesh_of, on_circle};
+use support::checked::{
+    boundary, check, is_delaunay, is_symmetric, least_angle, mesh_of, on_circle,
+};
 use support::domains::Domain;
-use support::meshes::{Random, grid};
+use support::meshes::{Random, grid, symmetric_grid};
 
 fn plain() -> DelaunayOptions<'static> {
     DelaunayOptions { least_angle: 0.0, ..DelaunayOptions::default() }
@@ -167,34 +169,6 @@ fn new_points_of_a_curved_boundary_are_on_it() {
     let off = ends.iter().filter(|&&end| !on_polyline(&mesh.points()[end as usize])).count();
     assert_eq!(off, 0, "of {}", ends.len());
     assert!(ends.len() > 36, "{}", ends.len());
-}
-
-/// Points and cells mirrored at x = 1/2, as sets; rounded so that rounding does not count.
-fn is_symmetric(mesh: &TriangleMesh) -> bool {
-    let name = |p: &Vector, mirrored: bool| {
-        let x = if mirrored { 1.0 - p.x } else { p.x };
-        [x, p.y].map(|x| (x * 1e7).round() as i64)
-    };
-    let cells = |mirrored: bool| -> HashSet<[[i64; 2]; 3]> {
-        let named = (0..mesh.triangles().len()).map(|cell| {
-            let mut corners = mesh.corners(cell).map(|corner| name(&corner, mirrored));
-            corners.sort_unstable();
-            corners
-        });
-        named.collect()
-    };
-    cells(false) == cells(true)
-}
-
-/// A grid with its diagonals mirrored at x = 1/2.
-fn symmetric_grid(n: usize) -> TriangleMesh<'static> {
-    let plain = grid(n);
-    let turned = plain.triangles().chunks(2).flat_map(|pair| {
-        let [[a, b, c], [_, _, d]] = [pair[0], pair[1]];
-        let is_left = plain.points()[b as usize].x <= 0.5;
-        if is_left { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
-    });
-    TriangleMesh::new(plain.points().to_vec(), turned.collect()).unwrap()
 }
 
 #[test]

@@ -15,6 +15,7 @@ use std::error::Error;
 use std::path::Path;
 
 use support::table::{Style, Table, ratio, short};
+use support::tables_of_refinement;
 use support::tables_of_surfaces::TABLES;
 use support::{order::order, table_5_1, table_5_3, table_5_7};
 use table_5_1::Points;
@@ -31,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let markdown = wanted.iter().any(|word| word == "--markdown");
     let style = if markdown { Style::Markdown } else { Style::Text };
     wanted.retain(|word| word != "--markdown");
-    let tables: [(&str, Make); 7] = [
+    let tables: [(&str, Make); 12] = [
         ("5.1", tables_5_1),
         ("5.2", times::table_5_2),
         ("5.3", tables_5_3),
@@ -39,6 +40,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("5.7", || vec![table_5_7()]),
         ("5.10", || vec![surfaces(0)]),
         ("5.11", || vec![surfaces(1)]),
+        ("5.12", || vec![refinement(0)]),
+        ("5.13", || vec![refinement(1)]),
+        ("5.14", || vec![refinement(2)]),
+        ("5.15", || vec![refinement(3)]),
+        ("5.16", || vec![refinement(4)]),
     ];
     if let Some(unknown) = wanted.iter().find(|name| !tables.iter().any(|(n, _)| n == name)) {
         let known: Vec<&str> = tables.iter().map(|(number, _)| *number).collect();
@@ -168,6 +174,27 @@ fn surfaces(which: usize) -> Table {
             line.extend([short(error), triangles.to_string()]);
         }
         table.push(line);
+    }
+    table
+}
+
+fn refinement(which: usize) -> Table {
+    let tables_of_refinement::Compared { number, problem, what, of, thesis } =
+        &tables_of_refinement::TABLES[which];
+    let title =
+        format!("Table {number}: {what} on problem {problem}, and its ratio to the uniform mesh");
+    let columns =
+        ["method", "who", "900", "ratio", "1600", "ratio", "2500", "ratio", "3600", "ratio"];
+    let mut table = Table::new(title, &columns);
+    let ours = tables_of_refinement::rows(*problem).map(|row| row.each_ref().map(of));
+    for (n, method) in tables_of_refinement::METHODS.iter().enumerate() {
+        for (who, rows) in [("thesis", thesis), ("ours", &ours)] {
+            let mut line = vec![method.name().to_owned(), who.to_owned()];
+            line.extend((0..4).flat_map(|size| {
+                [short(rows[n][size]), format!("{:.2}", rows[0][size] / rows[n][size])]
+            }));
+            table.push(line);
+        }
     }
     table
 }

@@ -1,6 +1,6 @@
 //! What every refined flat mesh must be.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use vtu2contour::mesh::{TriangleMesh, Vector, boundary_edges};
 use vtu2contour::refine::{NewPoint, Refinement};
@@ -145,4 +145,22 @@ pub fn boundary(mesh: &TriangleMesh) -> Vec<[u32; 2]> {
 /// The point at an angle of a circle around the origin.
 pub fn on_circle(radius: f64, angle: f64) -> Vector {
     Vector::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+}
+
+/// Whether a mesh is its own image, mirrored at x = 1/2, but for
+/// rounding.
+pub fn is_symmetric(mesh: &TriangleMesh) -> bool {
+    let name = |p: &Vector, mirrored: bool| {
+        let x = if mirrored { 1.0 - p.x } else { p.x };
+        [x, p.y].map(|x| (x * 1e7).round() as i64)
+    };
+    let cells = |mirrored: bool| -> HashSet<[[i64; 2]; 3]> {
+        let named = (0..mesh.triangles().len()).map(|cell| {
+            let mut corners = mesh.corners(cell).map(|corner| name(&corner, mirrored));
+            corners.sort_unstable();
+            corners
+        });
+        named.collect()
+    };
+    cells(false) == cells(true)
 }

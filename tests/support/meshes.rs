@@ -56,3 +56,14 @@ pub fn grid(n: usize) -> TriangleMesh<'static> {
     }
     TriangleMesh::new(points.collect(), triangles).unwrap()
 }
+
+/// A grid with its diagonals mirrored at x = 1/2.
+pub fn symmetric_grid(n: usize) -> TriangleMesh<'static> {
+    let plain = grid(n);
+    let turned = plain.triangles().chunks(2).flat_map(|pair| {
+        let [[a, b, c], [_, _, d]] = [pair[0], pair[1]];
+        let is_left = plain.points()[b as usize].x <= 0.5;
+        if is_left { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    });
+    TriangleMesh::new(plain.points().to_vec(), turned.collect()).unwrap()
+}

@@ -3,9 +3,9 @@
 //! Where four points lie on a circle, both diagonals are Delaunay, and rounding and the order of
 //! insertion choose. Here geometry does, in a way that every symmetry of the mesh respects: the
 //! shorter diagonal, or of equal ones that whose line passes nearer to the middle of the mesh.
-//! Only edges at new points are looked at.
+//! Only edges of triangles at new points are looked at.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use spade::Point2;
 
@@ -72,17 +72,26 @@ impl Ties<'_> {
         (area > 0.0).then(|| Point2::new(x / area, y / area))
     }
 
-    /// The edges between two triangles that a new point is a corner of, sorted.
+    /// The edges of triangles that a new point is a corner of, with both their triangles, sorted.
     fn edges(&self, triangles: &[[u32; 3]]) -> Vec<([u32; 2], Sides)> {
         let mut edges: HashMap<[u32; 2], Sides> = HashMap::new();
-        for (number, &[a, b, c]) in triangles.iter().enumerate() {
-            for (edge, opposite) in [([a, b], c), ([b, c], a), ([c, a], b)] {
-                let is_near = [a, b, c].iter().any(|&point| point >= self.first_new);
-                if !is_near || (self.is_kept)(sorted(edge)) {
-                    continue;
+        let is_near = |triangle: &&[u32; 3]| triangle.iter().any(|p| *p >= self.first_new);
+        for &[a, b, c] in triangles.iter().filter(is_near) {
+            for edge in [[a, b], [b, c], [c, a]].map(sorted) {
+                if !(self.is_kept)(edge) {
+                    edges.insert(edge, Sides::default());
                 }
-                let sides = edges.entry(sorted(edge)).or_default();
-                sides[usize::from(edge[0] > edge[1])] = Some((number, opposite));
+            }
+        }
+        let ends: HashSet<u32> = edges.keys().flatten().copied().collect();
+        for (number, &[a, b, c]) in triangles.iter().enumerate() {
+            if [a, b, c].iter().filter(|point| ends.contains(point)).count() < 2 {
+                continue;
+            }
+            for (edge, opposite) in [([a, b], c), ([b, c], a), ([c, a], b)] {
+                if let Some(sides) = edges.get_mut(&sorted(edge)) {
+                    sides[usize::from(edge[0] > edge[1])] = Some((number, opposite));
+                }
             }
         }
         let mut edges: Vec<_> = edges.into_iter().collect();

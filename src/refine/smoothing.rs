@@ -142,7 +142,7 @@ impl Star<'_> {
         };
         let places = STEPS.map(|step| here + (target - here) * step);
         let offers = places.map(|place| (self.worst(cells, points, &place).0, place));
-        let is_gain = |offer: &&(f64, Vector)| offer.0 > -1.0;
+        let is_gain = |offer: &&(f64, Vector)| offer.0 > before.0 + LEAST_GAIN;
         let taken = match smoothing {
             Smoothing::Laplacian => offers.iter().find(is_gain),
             Smoothing::Optimised => {

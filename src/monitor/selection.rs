@@ -80,7 +80,7 @@ impl Selection {
             Self::Fraction(part) | Self::Bulk(part) if !(part > 0.0 && part <= 1.0) => {
                 Err(SelectionError::Part(part))
             }
-            Self::AboveAverage(number) | Self::Above(number) if !(number >= 0.0) => {
+            Self::AboveAverage(number) | Self::Above(number) if number.is_nan() || number < 0.0 => {
                 Err(SelectionError::Negative(number))
             }
             _ => Ok(()),

@@ -1,13 +1,13 @@
 //! The thesis' hybrid: new points in a Delaunay triangulation (section 3.4).
 //!
-//! For every marked triangle the most appropriate point is added ([`choice`]): its
+//! For every marked triangle the most appropriate point is added (`choice`): its
 //! circumcenter, if that lies inside the domain; the middle of its longest edge, if that is on the
 //! boundary; its own middle otherwise. The triangulation stays Delaunay, but for the edges that
-//! are kept ([`features`]): those of the boundary and those between regions.
+//! are kept (`features`): those of the boundary and those between regions.
 //!
 //! All points of a step are chosen before the first is added, and what they become does not
 //! depend on their order: so symmetric meshes stay symmetric. Then angles are looked after
-//! ([`quality`]): triangles with a new point and too small an angle get points by Ruppert's rule
+//! (`quality`): triangles with a new point and too small an angle get points by Ruppert's rule
 //! (1995).
 //!
 //! Cells that were Delaunay and are not marked, nor near what is, stay as they are.

@@ -4,6 +4,7 @@
 //! below: which array of a grid is meant and where its gradient is, cells as
 //! simplices, the interpolant, its contours, and the data that travel along.
 
+mod boundary_curves;
 mod cells;
 mod chosen_array;
 mod contour_filter;
@@ -32,6 +33,7 @@ mod sampling;
 mod solution;
 mod surface_output;
 
+pub use boundary_curves::boundary_curves;
 pub use cells::{Cells, Part, Tetrahedra, Triangles};
 pub use chosen_array::{ChosenArray, Component};
 pub use contour_filter::{Contoured, Stage, contour, prepared};
@@ -48,7 +50,9 @@ pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, 
 pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
 pub use picture::picture;
 pub use preview::{Preview, preview};
-pub use refined_grid::{MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, RefinedGrid, refine};
+pub use refined_grid::{
+    MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, RefinedGrid, refine, without_origins,
+};
 pub use report::Report;
 pub use resample::Stencil;
 pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};

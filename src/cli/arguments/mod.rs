@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use vtu2contour::filter::{ContourOptions, MarkedBy, RefineOptions};
+use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::WriteOptions;
 
 mod groups;
@@ -236,8 +237,16 @@ pub struct RefineArguments {
     #[arg(long, value_name = "NAME", help_heading = "Refinement")]
     pub regions: Option<String>,
 
-    /// The most points that the refined mesh may have; bisection and centroids of triangles
-    /// meet it exactly
+    /// Curved boundary, as lines or polylines of a file (.vtp .vtu .vtk); may be repeated.
+    /// 'delaunay' puts new boundary points on it
+    ///
+    /// For sides of cells that have both ends on the curve, to a hundredth of their length. A
+    /// new point is halfway along the curve. Interfaces between --regions may be curved too.
+    #[arg(long = "boundary", value_name = "FILE", help_heading = "Refinement")]
+    pub boundaries: Vec<PathBuf>,
+
+    /// The most points that the refined mesh may have; with triangles it is met exactly, if as
+    /// many are asked for
     #[arg(long, value_name = "N", help_heading = "Refinement")]
     pub max_points: Option<usize>,
 
@@ -276,7 +285,9 @@ pub struct RefineArguments {
 
 impl RefineArguments {
     /// What the arguments ask for.
-    pub fn options(&self) -> RefineOptions {
+    ///
+    /// `boundaries`: the curves of the files.
+    pub fn options(&self, boundaries: Vec<Vec<Vector>>) -> RefineOptions {
         let marked = match (&self.marks, &self.by) {
             (Some(name), _) => MarkedBy::Marks(name.clone()),
             (None, name) => MarkedBy::Array(name.clone().unwrap_or_default(), self.select),
@@ -287,6 +298,7 @@ impl RefineArguments {
             smoothing: self.smooth.map(|name| (name.into(), SWEEPS)),
             max_points: self.max_points,
             regions: self.regions.clone(),
+            boundaries,
             solution: self.interpolant.options(self.scalars.options()),
         }
     }

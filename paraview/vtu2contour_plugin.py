@@ -1,8 +1,8 @@
-"""ParaView plugin: the filter *DEI Contour*, under *Filters > DEI*.
+"""ParaView plugin: the filters *DEI Contour* and *DEI Refine*, under *Filters > DEI*.
 
-It contours the cubics that vtu2contour makes of values, gradients and the PDE. The work is
-done in memory by the Python module ``vtu2contour``; how both are installed is in the README
-beside this file.
+They contour the cubics that vtu2contour makes of values, gradients and the PDE, and refine
+meshes whose new points have the cubics' values. The work is done in memory by the Python module
+``vtu2contour``; how both are installed is in the README beside this file.
 """
 
 import warnings
@@ -282,6 +282,174 @@ class DEIContour(VTKPythonAlgorithmBase):
         return self._kept[1]
 
 
+REFINE_PROPERTIES = """
+<InputProperty name="Input" command="SetInputConnection">
+  <ProxyGroupDomain name="groups"><Group name="sources"/><Group name="filters"/></ProxyGroupDomain>
+  <DataTypeDomain name="input_type"><DataType value="vtkDataSet"/></DataTypeDomain>
+  <InputArrayDomain name="cell_array" attribute_type="cell" number_of_components="1"/>
+  <Documentation>The mesh. Its solids are refined, or if it has none its two-dimensional cells; all
+    become tetrahedra or triangles first.</Documentation>
+</InputProperty>
+<StringVectorProperty name="RefineBy" label="Refine By" command="SetInputArrayToProcess"
+    number_of_elements="5" element_types="0 0 0 0 2" animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Scalars" input_domain_name="cell_array">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The cell array that says where: an error indicator, or marks.</Documentation>
+</StringVectorProperty>
+<IntVectorProperty name="Select" command="SetSelect" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Above N times the average"/>
+    <Entry value="1" text="The part N of the cells"/>
+    <Entry value="2" text="The fewest with the part N of the sum"/>
+    <Entry value="3" text="Above N"/><Entry value="4" text="Other than zero"/>
+  </EnumerationDomain>
+  <Documentation>Which cells the array selects; N is the number below.</Documentation>
+</IntVectorProperty>
+<DoubleVectorProperty name="Number" label="N" command="SetNumber" number_of_elements="1"
+    default_values="2">
+  <DoubleRangeDomain name="range" min="0"/>
+  <Documentation>A factor, a part between 0 and 1, or a number in the unit of the
+    array.</Documentation>
+</DoubleVectorProperty>
+<IntVectorProperty name="Method" command="SetMethod" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Longest edge"/><Entry value="1" text="Newest vertex"/>
+    <Entry value="2" text="Red-green"/><Entry value="3" text="Centroid"/>
+    <Entry value="4" text="Delaunay"/>
+  </EnumerationDomain>
+  <Documentation>How triangles are divided; Delaunay, the thesis' hybrid, takes meshes in a plane.
+    Tetrahedra are always bisected.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="Smooth" command="SetSmooth" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="No"/><Entry value="1" text="Laplacian"/>
+    <Entry value="2" text="Optimised"/>
+  </EnumerationDomain>
+  <Documentation>Moves points of triangles so that these have better shapes. The boundary
+    stays.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="MaximumPoints" label="Maximum Points" command="SetMaximumPoints"
+    number_of_elements="1" default_values="0">
+  <IntRangeDomain name="range" min="0"/>
+  <Documentation>The most points that the refined mesh may have; 0 for any
+    number.</Documentation>
+</IntVectorProperty>
+<StringVectorProperty name="Solution" command="SetSolution" number_of_elements="1"
+    default_values="Automatic" animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Scalars" none_string="Automatic">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array whose new values are those of the cubics; others are interpolated
+    linearly. Automatic: the active scalars, or the only one.</Documentation>
+</StringVectorProperty>
+<StringVectorProperty name="Gradient" command="SetGradient" number_of_elements="1"
+    default_values="Automatic" animateable="0" panel_visibility="advanced">
+  <ArrayListDomain name="array_list" attribute_type="Vectors" none_string="Automatic">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array that is its gradient. Automatic: one with a usual name that fits,
+    else it is recovered.</Documentation>
+</StringVectorProperty>
+<StringVectorProperty name="PDE" label="PDE" command="SetPDE" number_of_elements="1"
+    default_values="" animateable="0">
+  <Documentation>The equation that the solution solves, if it is known: as in DEI
+    Contour.</Documentation>
+</StringVectorProperty>
+<StringVectorProperty name="Parameters" label="PDE Parameters" command="SetParameters"
+    number_of_elements="1" default_values="" panel_visibility="advanced">
+  <Documentation>Values of names in the PDE, such as k2=84.39, c=1.</Documentation>
+</StringVectorProperty>
+"""
+
+SELECTIONS = ("average", "fraction", "bulk", "above")
+DIVISIONS = ("bisect", "newest-vertex", "red-green", "centroid", "delaunay")
+SMOOTHINGS = (None, "laplacian", "optimised")
+
+
+@smproxy.filter(name="DEIRefine", label="DEI Refine")
+@smhint.xml('<ShowInMenu category="DEI"/>')
+@smproperty.xml(REFINE_PROPERTIES)
+class DEIRefine(VTKPythonAlgorithmBase):
+    """Refines a mesh where a cell array asks for it, with all its data."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=1, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+        self._options = {}
+        self._selection = 0
+        self._number = 2.0
+        self._parameters = ""
+
+    def SetSelect(self, number):
+        self._change("_selection", number)
+
+    def SetNumber(self, number):
+        self._change("_number", number)
+
+    def SetParameters(self, text):
+        self._change("_parameters", text or "")
+
+    def SetMethod(self, number):
+        self._choose("method", DIVISIONS[number])
+
+    def SetSmooth(self, number):
+        self._choose("smooth", SMOOTHINGS[number])
+
+    def SetMaximumPoints(self, points):
+        self._choose("max_points", points or None)
+
+    def SetSolution(self, name):
+        self._choose("scalars", None if name in (None, "", AUTOMATIC) else name)
+
+    def SetGradient(self, name):
+        self._choose("gradient", None if name in (None, "", AUTOMATIC) else name)
+
+    def SetPDE(self, text):
+        self._choose("pde", (text or "").strip() or None)
+
+    def _change(self, name, value):
+        if getattr(self, name) != value:
+            setattr(self, name, value)
+            self.Modified()
+
+    def _choose(self, name, value):
+        if self._options.get(name) != value:
+            self._options[name] = value
+            self.Modified()
+
+    def FillInputPortInformation(self, port, info):
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        mesh = vtkDataObject.GetData(inputs[0], 0)
+        output = vtkDataObject.GetData(outputs, 0)
+        output.Initialize()
+        try:
+            import vtu2contour
+        except ImportError as error:
+            tell_error(f"{MISSING} ({error})", "DEI Refine")
+            return 1
+        if mesh.GetNumberOfCells() == 0:
+            return 1  # another process has them
+        name = self.GetInputArrayInformation(0).Get(vtkDataObject.FIELD_NAME())
+        if self._selection < len(SELECTIONS):
+            where = {"by": name, "select": f"{SELECTIONS[self._selection]}:{self._number!r}"}
+        else:
+            where = {"marks": name}
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", UserWarning)
+            try:
+                options = {**self._options, "parameters": parameters(self._parameters)}
+                output.ShallowCopy(vtu2contour.refine(mesh, **where, **options))
+            except (ValueError, TypeError) as error:
+                tell_error(error, "DEI Refine")
+        for warning in told:
+            tell_warning(warning.message, "DEI Refine")
+        return 1
+
+
 def parameters(text):
     """The numbers of a text such as ``k2=84.39, c=1``."""
     values = {}
@@ -366,11 +534,11 @@ def diagonal_of_all(mesh):
 CORNERS = [(1, 1), (3, 1), (5, 1), (0, -1), (2, -1), (4, -1)]
 
 
-def tell_error(text):
-    """An error in ParaView's output messages."""
-    vtkOutputWindow.GetInstance().DisplayErrorText(f"DEI Contour: {text}\n")
+def tell_error(text, name="DEI Contour"):
+    """An error in ParaView's output messages, of the filter of that name."""
+    vtkOutputWindow.GetInstance().DisplayErrorText(f"{name}: {text}\n")
 
 
-def tell_warning(text):
-    """A warning in ParaView's output messages."""
-    vtkOutputWindow.GetInstance().DisplayWarningText(f"DEI Contour: {text}\n")
+def tell_warning(text, name="DEI Contour"):
+    """A warning in ParaView's output messages, of the filter of that name."""
+    vtkOutputWindow.GetInstance().DisplayWarningText(f"{name}: {text}\n")

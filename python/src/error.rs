@@ -18,7 +18,7 @@ create_exception!(
 );
 
 /// What the texts name as options of the command line are arguments here.
-const ARGUMENTS: [(&str, &str); 13] = [
+const ARGUMENTS: [(&str, &str); 14] = [
     ("give --array NAME", "give scalars=NAME"),
     ("--component 0..", "component=0.."),
     ("--component mag", "component='mag'"),
@@ -30,6 +30,7 @@ const ARGUMENTS: [(&str, &str); 13] = [
     ("--tolerance, --nside and --triangles", "tolerance, nside and triangles"),
     ("--merge-points 0", "merge_points=0"),
     ("--merge-points", "merge_points"),
+    ("--method delaunay", "method='delaunay'"),
     ("--interpolant linear", "interpolant='linear'"),
     ("--", ""),
 ];

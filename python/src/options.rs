@@ -118,7 +118,7 @@ impl DrawingOptions {
 }
 
 /// What a word stands for.
-fn chosen<T: Copy>(argument: &str, word: &str, choices: &[(&str, T)]) -> PyResult<T> {
+pub fn chosen<T: Copy>(argument: &str, word: &str, choices: &[(&str, T)]) -> PyResult<T> {
     match choices.iter().find(|(name, _)| *name == word) {
         Some((_, choice)) => Ok(*choice),
         None => {

@@ -7,7 +7,8 @@ cubic: smooth, every point on its level, islands inside a cell included.
 
 ``contour(mesh, levels)`` contours a mesh of pyvista or vtk; ``Interpolant(points, cells, u,
 grad)`` does the same with NumPy arrays, and is kept for any number of levels; ``info(mesh)``
-tells what would be done.
+tells what would be done; ``refine(mesh, by=...)`` and ``refine_arrays(points, cells, marks)``
+make meshes finer, ``refine`` with a solver between the steps.
 
 >>> import numpy as np
 >>> import vtu2contour as vc
@@ -25,6 +26,7 @@ from ._core import MissingArrayError, NothingToContourError
 from .contours import Contours
 from .interpolant import Interpolant
 from .mesh_contour import MeshInterpolant, contour, info
+from .refinement import Refined, SolverError, refine, refine_arrays
 
 __all__ = [
     "Contours",
@@ -32,7 +34,11 @@ __all__ = [
     "MeshInterpolant",
     "MissingArrayError",
     "NothingToContourError",
+    "Refined",
+    "SolverError",
     "__version__",
     "contour",
     "info",
+    "refine",
+    "refine_arrays",
 ]

@@ -1,6 +1,6 @@
 //! `vtu2contour refine`: a finer mesh where that is asked for, with all data.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use vtu2contour::filter::{ORIGINAL_CELLS, PARENT_EDGE, RefinedGrid, refine};
 use vtu2contour::vtk::{AtomicFile, UnstructuredGrid, WriteOptions, write_vtu_to};
 
@@ -15,19 +15,14 @@ pub fn run(arguments: &RefineArguments) -> Result<()> {
     if !extension.is_some_and(|extension| extension.eq_ignore_ascii_case("vtu")) {
         bail!("cannot write '{}': a refined mesh is a .vtu", arguments.output.display());
     }
-    if arguments.steps > 1 && arguments.by.is_some() && arguments.solver.is_none() {
+    if arguments.steps() > 1 && arguments.by.is_some() && arguments.solver.is_none() {
         bail!(
             "--by tells nothing of refined cells: leave --steps out, or give --solver, which \
              writes the array anew"
         );
     }
     let running = &arguments.running;
-    if let Some(threads) = running.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .context("cannot start the threads")?;
-    }
+    running.start_threads()?;
     let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
     let result = Job::new(arguments, &messages).and_then(Job::run);
     messages.finish();
@@ -58,20 +53,17 @@ impl<'a> Job<'a> {
     }
 
     fn run(mut self) -> Result<()> {
-        let [part] = &self.input.parts[..] else {
-            bail!(
-                "'{}' is a series of {} files: choose a step, with --time T, first or last",
-                self.arguments.input.display(),
-                self.input.parts.len()
-            );
-        };
+        let part = self.input.only_part()?;
         let mut grid = begun(self.input.read(part, Arrays::All)?.data);
         let mut warned = Vec::new();
         if let (Some(solver), true) = (&self.solver, self.lacks_array(&grid)) {
             self.messages.stage("solving");
             grid = solver.solve(&grid)?;
         }
-        for step in 1..=self.arguments.steps {
+        for step in 1..=self.arguments.steps() {
+            if step > 1 && self.is_full(&grid) {
+                break;
+            }
             let next = self.step(part, step, &grid, &mut warned);
             let next = match next {
                 Ok(next) => next,
@@ -92,6 +84,11 @@ impl<'a> Job<'a> {
         }
         write(&mut self.out, &grid, self.arguments.write_options())?;
         Ok(self.out.commit()?)
+    }
+
+    /// Whether the grid has as many points as it may have.
+    fn is_full(&self, grid: &UnstructuredGrid) -> bool {
+        self.arguments.max_points.is_some_and(|most| grid.points.tuples() >= most)
     }
 
     /// Whether the array that tells where to refine is not there yet.

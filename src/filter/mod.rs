@@ -4,6 +4,7 @@
 //! below: which array of a grid is meant and where its gradient is, cells as
 //! simplices, the interpolant, its contours, and the data that travel along.
 
+mod cell_monitor;
 mod cells;
 mod chosen_array;
 mod contour_filter;
@@ -18,6 +19,7 @@ mod known_pde;
 mod level_warning;
 mod line_output;
 mod merge_points;
+mod monitor;
 mod needed_arrays;
 mod options;
 mod output;
@@ -29,9 +31,11 @@ mod refined_grid;
 mod report;
 mod resample;
 mod sampling;
+mod second_interpolant;
 mod solution;
 mod surface_output;
 
+pub use cell_monitor::Monitor;
 pub use cells::{Cells, Part, Tetrahedra, Triangles};
 pub use chosen_array::{ChosenArray, Component};
 pub use contour_filter::{Contoured, Stage, contour, prepared};
@@ -43,6 +47,7 @@ pub use interpolant::Interpolant;
 pub use interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles};
 pub use known_pde::KnownPde;
 pub use level_warning::level_warning;
+pub use monitor::{MonitorOptions, Monitored, MonitoredGrid, monitor};
 pub use needed_arrays::needed_arrays;
 pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, InterpolantKind};
 pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
@@ -52,4 +57,5 @@ pub use refined_grid::{MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, Refin
 pub use report::Report;
 pub use resample::Stencil;
 pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};
+pub use second_interpolant::SecondInterpolant;
 pub use solution::{Domain, Solution};

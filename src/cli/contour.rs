@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use vtu2contour::contour::Levels;
 use vtu2contour::contour::surface::Fineness;
 use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour, preview};
@@ -20,12 +20,7 @@ use super::warnings::Warnings;
 pub fn run(arguments: &ContourArguments) -> Result<()> {
     let format = Format::of(arguments.output())?;
     let running = &arguments.running;
-    if let Some(threads) = running.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .context("cannot start the threads")?;
-    }
+    running.start_threads()?;
     let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
     let result = write_contours(arguments, format, &messages);
     messages.finish();

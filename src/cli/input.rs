@@ -69,6 +69,21 @@ impl Input {
         Ok(input)
     }
 
+    /// The only part.
+    ///
+    /// # Errors
+    /// If there are several: the job is one of a single grid.
+    pub fn only_part(&self) -> Result<&Part> {
+        match &self.parts[..] {
+            [part] => Ok(part),
+            parts => bail!(
+                "'{}' is a series of {} files: choose a step, with --time T, first or last",
+                self.path.display(),
+                parts.len()
+            ),
+        }
+    }
+
     /// Whether the input is a series, or one step of it.
     pub fn is_series(&self) -> bool {
         matches!(self.file, AnyFile::Pvd(_))

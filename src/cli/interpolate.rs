@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use vtu2contour::filter::{Sampled, Subdivision, sample, sample_image, subdivide};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{
@@ -29,12 +29,7 @@ enum Format {
 pub fn run(arguments: &InterpolateArguments) -> Result<()> {
     let format = format(arguments)?;
     let running = &arguments.running;
-    if let Some(threads) = running.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .context("cannot start the threads")?;
-    }
+    running.start_threads()?;
     let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
     let result = interpolate(arguments, format, &messages);
     messages.finish();
@@ -74,13 +69,7 @@ fn interpolate(
 ) -> Result<()> {
     messages.stage("reading");
     let input = Input::open(&arguments.input, arguments.scalars.time, false)?;
-    let [part] = &input.parts[..] else {
-        bail!(
-            "'{}' is a series of {} files: choose a step, with --time T, first or last",
-            arguments.input.display(),
-            input.parts.len()
-        );
-    };
+    let part = input.only_part()?;
     let mut out = AtomicFile::create(&arguments.output)?;
     let grid = input.read(part, Arrays::All)?.data;
     messages.stage("interpolating");

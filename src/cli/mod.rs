@@ -12,6 +12,7 @@ mod interpolate;
 #[cfg(unix)]
 mod interruptions;
 mod messages;
+mod monitor;
 mod output;
 mod plan;
 mod refine;
@@ -38,6 +39,7 @@ pub fn run() -> ExitCode {
         Some(Command::Contour(arguments)) => contour::run(&arguments),
         Some(Command::Info(arguments)) => info::run(&arguments),
         Some(Command::Interpolate(arguments)) => interpolate::run(&arguments),
+        Some(Command::Monitor(arguments)) => monitor::run(&arguments),
         Some(Command::Refine(arguments)) => refine::run(&arguments),
         Some(Command::Completions { shell }) => {
             let name = env!("CARGO_PKG_NAME");

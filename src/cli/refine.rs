@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use vtu2contour::filter::{RefineOptions, RefinedGrid, boundary_curves, refine, without_origins};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{
@@ -20,19 +20,14 @@ pub fn run(arguments: &RefineArguments) -> Result<()> {
     if !extension.is_some_and(|extension| extension.eq_ignore_ascii_case("vtu")) {
         bail!("cannot write '{}': a refined mesh is a .vtu", arguments.output.display());
     }
-    if arguments.steps > 1 && arguments.by.is_some() && arguments.solver.is_none() {
+    if arguments.steps() > 1 && arguments.by.is_some() && arguments.solver.is_none() {
         bail!(
             "--by tells nothing of refined cells: leave --steps out, or give --solver, which \
              writes the array anew"
         );
     }
     let running = &arguments.running;
-    if let Some(threads) = running.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .context("cannot start the threads")?;
-    }
+    running.start_threads()?;
     let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
     let result = Job::new(arguments, &messages).and_then(Job::run);
     messages.finish();
@@ -67,20 +62,17 @@ impl<'a> Job<'a> {
     }
 
     fn run(mut self) -> Result<()> {
-        let [part] = &self.input.parts[..] else {
-            bail!(
-                "'{}' is a series of {} files: choose a step, with --time T, first or last",
-                self.arguments.input.display(),
-                self.input.parts.len()
-            );
-        };
+        let part = self.input.only_part()?;
         let mut grid = without_origins(self.input.read(part, Arrays::All)?.data);
         let mut warned = Vec::new();
         if let (Some(solver), true) = (&self.solver, self.lacks_array(&grid)) {
             self.messages.stage("solving");
             grid = solver.solve(&grid)?;
         }
-        for step in 1..=self.arguments.steps {
+        for step in 1..=self.arguments.steps() {
+            if step > 1 && self.is_full(&grid) {
+                break;
+            }
             let next = self.step(part, step, &grid, &mut warned);
             let next = match next {
                 Ok(next) => next,
@@ -101,6 +93,11 @@ impl<'a> Job<'a> {
         }
         write(&mut self.out, &grid, self.arguments.write_options())?;
         Ok(self.out.commit()?)
+    }
+
+    /// Whether the grid has as many points as it may have.
+    fn is_full(&self, grid: &UnstructuredGrid) -> bool {
+        self.arguments.max_points.is_some_and(|most| grid.points.tuples() >= most)
     }
 
     /// Whether the array that tells where to refine is not there yet.

@@ -132,6 +132,23 @@ pub enum FilterError {
 
     #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
     UnusedPde,
+
+    #[error("{what} needs the PDE: give --pde EQUATION, such as 'uxx + uyy = -k*u'")]
+    NeedsPde { what: String },
+
+    #[error("there is no second interpolant '{name}' on {cells} cells: choose one of {others}")]
+    NotOnCells { name: &'static str, cells: &'static str, others: &'static str },
+
+    #[error(
+        "the second interpolant '{name}' is the interpolant itself: choose another, or leave --interpolant out"
+    )]
+    SameInterpolant { name: &'static str },
+
+    #[error(
+        "this monitor compares interpolants of values and gradients, and the linear one uses no \
+         gradients: leave --interpolant out, or choose the monitor 'area'"
+    )]
+    NothingToCompare,
 }
 
 impl FilterError {

@@ -5,6 +5,7 @@
 //! simplices, the interpolant, its contours, and the data that travel along.
 
 mod boundary_curves;
+mod cell_monitor;
 mod cells;
 mod chosen_array;
 mod contour_filter;
@@ -19,6 +20,7 @@ mod known_pde;
 mod level_warning;
 mod line_output;
 mod merge_points;
+mod monitor;
 mod needed_arrays;
 mod options;
 mod output;
@@ -30,10 +32,12 @@ mod refined_grid;
 mod report;
 mod resample;
 mod sampling;
+mod second_interpolant;
 mod solution;
 mod surface_output;
 
 pub use boundary_curves::boundary_curves;
+pub use cell_monitor::Monitor;
 pub use cells::{Cells, Part, Tetrahedra, Triangles};
 pub use chosen_array::{ChosenArray, Component};
 pub use contour_filter::{Contoured, Stage, contour, prepared};
@@ -45,6 +49,7 @@ pub use interpolant::Interpolant;
 pub use interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles};
 pub use known_pde::KnownPde;
 pub use level_warning::level_warning;
+pub use monitor::{MonitorOptions, Monitored, MonitoredGrid, monitor};
 pub use needed_arrays::needed_arrays;
 pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, InterpolantKind};
 pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
@@ -56,4 +61,5 @@ pub use refined_grid::{
 pub use report::Report;
 pub use resample::Stencil;
 pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};
+pub use second_interpolant::SecondInterpolant;
 pub use solution::{Domain, Solution};

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
+use super::cell_monitor::{CellMonitor, Monitor};
 use super::cells::{Cells, Part};
 use super::contour_filter::prepared;
 use super::error::FilterError;
@@ -15,7 +16,7 @@ use super::resample::{Stencil, interpolate, overwrite, pick};
 use super::solution::{Domain, Solution};
 use crate::interpolant::Pieces;
 use crate::mesh::{PointLocator, SimplexMesh, Vector};
-use crate::monitor::Selection;
+use crate::monitor::{SamplePoints, Selection};
 use crate::refine::delaunay::{DelaunayError, DelaunayOptions, delaunay};
 use crate::refine::{
     Marks, MovedPoint, NewPoint, RefineError, Refinement, Smoothing, TriangleMethod,
@@ -52,6 +53,9 @@ pub enum MarkedBy {
     Marks(String),
     /// By the numbers of this cell array, one a cell.
     Array(String, Selection),
+    /// By a monitor of the solution, one number a simplex. With a bound on the points
+    /// something is selected as long as there is any error ([`Selection::select_some`]).
+    Monitor(Monitor, SamplePoints, Selection),
 }
 
 /// How a grid is refined.
@@ -147,8 +151,11 @@ pub fn refine(
             let known = interpolant.as_ref();
             let cubics = known.and_then(Interpolant::in_tetrahedra).map(|(cubics, _)| cubics);
             let domain = known.and_then(|known| known.solution.tetrahedra.as_ref());
+            let marked = job.marked(&part, known.zip(domain), |monitor, of, domain| {
+                monitor.of_tetrahedra(of, domain)
+            })?;
             let cubics = cubics.as_deref().zip(domain);
-            job.run(&part, TETRAHEDRON, state, refine, known, cubics)
+            job.run(&part, &marked, state, refine, known, cubics)
         }
         (None, Some(part)) => {
             let refine = |regions: &[u32], marks: &Marks| {
@@ -173,8 +180,11 @@ pub fn refine(
             let known = interpolant.as_ref();
             let cubics = known.and_then(Interpolant::in_triangles).map(|(cubics, _)| cubics);
             let domain = known.and_then(|known| known.solution.triangles.as_ref());
+            let marked = job.marked(&part, known.zip(domain), |monitor, of, domain| {
+                monitor.of_triangles(of, domain)
+            })?;
             let cubics = cubics.as_deref().zip(domain);
-            job.run(&part, TRIANGLE, state, refine, known, cubics)
+            job.run(&part, &marked, state, refine, known, cubics)
         }
         (None, None) => {
             let cells = grid.types.iter().copied().collect();
@@ -209,17 +219,16 @@ impl Job<'_> {
     fn run<const CORNERS: usize, C: Pieces<CORNERS> + ?Sized>(
         &self,
         part: &Part<CORNERS>,
-        kind: u8,
+        marked: &[u32],
         state: Option<&'static str>,
         refine: impl Fn(&[u32], &Marks) -> Result<Refinement<CORNERS>, FilterError>,
         known: Option<&Interpolant>,
         cubics: Option<(&C, &Domain<CORNERS>)>,
     ) -> Result<RefinedGrid, FilterError> {
-        let marked = self.marked(part)?;
         let regions = self.regions(part)?;
         let before = state.map(|name| self.state(part, name)).unwrap_or_default();
         let max_points = self.options.max_points.unwrap_or(usize::MAX);
-        let marks = Marks { cells: &marked, max_points, state: &before };
+        let marks = Marks { cells: marked, max_points, state: &before };
         let mut warnings =
             known.map_or_else(Vec::new, |known| known.interpolation.warnings.clone());
         let refined = match refine(&regions, &marks) {
@@ -233,7 +242,7 @@ impl Job<'_> {
             other => other,
         };
         let refined = refined.map_err(|error| of_grid(error, &part.parents))?;
-        let mut grid = self.carried(part, kind, &refined);
+        let mut grid = self.carried(part, &refined);
         if let (Some(name), false) = (state, refined.state.is_empty()) {
             grid.cell_data.push(DataArray::new(name, 1, refined.state.clone()));
         }
@@ -256,19 +265,38 @@ impl Job<'_> {
         })
     }
 
-    /// The marked simplices, those first that need it most.
-    fn marked<const CORNERS: usize>(&self, part: &Part<CORNERS>) -> Result<Vec<u32>, FilterError> {
-        let of = |name: &str| {
+    /// The marked simplices, those first that need it most. `of` gives the numbers of a monitor.
+    fn marked<const CORNERS: usize>(
+        &self,
+        part: &Part<CORNERS>,
+        known: Option<(&Interpolant, &Domain<CORNERS>)>,
+        of: impl Fn(&CellMonitor, &Interpolant, &Domain<CORNERS>) -> Result<Vec<f64>, FilterError>,
+    ) -> Result<Vec<u32>, FilterError> {
+        let of_array = |name: &str| {
             let numbers = cell_numbers(self.grid, name);
             numbers.map(|numbers| part.parents.iter().map(|&cell| numbers[cell as usize]).collect())
         };
         match &self.options.marked {
             MarkedBy::Marks(name) => {
-                let numbers: Vec<f64> = of(name)?;
+                let numbers: Vec<f64> = of_array(name)?;
                 let all = 0..numbers.len() as u32;
                 Ok(all.filter(|&simplex| numbers[simplex as usize] != 0.0).collect())
             }
-            MarkedBy::Array(name, selection) => Ok(selection.select(&of(name)?)?),
+            MarkedBy::Array(name, selection) => Ok(selection.select(&of_array(name)?)?),
+            MarkedBy::Monitor(monitor, samples, selection) => {
+                let Some((interpolant, domain)) = known else {
+                    let cell_arrays = !self.grid.cell_data.is_empty();
+                    return Err(FilterError::NoPointArrays { cell_arrays });
+                };
+                let pde = interpolant.solution.pde.as_deref();
+                let monitor = CellMonitor::new(*monitor, *samples, pde, &self.options.solution);
+                let numbers = of(&monitor, interpolant, domain)?;
+                match self.options.max_points {
+                    // a number of points is asked for: there is always something to refine
+                    Some(_) => Ok(selection.select_some(&numbers)?),
+                    None => Ok(selection.select(&numbers)?),
+                }
+            }
         }
     }
 
@@ -299,9 +327,9 @@ impl Job<'_> {
     fn carried<const CORNERS: usize>(
         &self,
         part: &Part<CORNERS>,
-        kind: u8,
         refined: &Refinement<CORNERS>,
     ) -> UnstructuredGrid {
+        let kind = if CORNERS == 3 { TRIANGLE } else { TETRAHEDRON };
         let coordinates: Vec<f64> =
             refined.points.iter().flat_map(|point| <[f64; 3]>::from(*point)).collect();
         let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));

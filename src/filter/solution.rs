@@ -1,6 +1,7 @@
 //! A finite-element solution: cells, values, gradients, PDE.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::cells::{Cells, Part, ghosts};
 use super::chosen_array::ChosenArray;
@@ -30,8 +31,8 @@ pub struct Solution<'a> {
     pub left_out: LeftOut,
     /// Solids whose tetrahedra lie over one another in part.
     pub folded: CellCounts,
-    /// The PDE, if it is known.
-    pub pde: Option<KnownPde>,
+    /// The PDE, if it is known; shared with whoever keeps it for other solutions.
+    pub pde: Option<Arc<KnownPde>>,
     /// The length of the diagonal of the box around all cells: of the larger one, where
     /// there are two kinds.
     pub diagonal: f64,
@@ -63,7 +64,7 @@ impl Solution<'static> {
     /// has no cells that can be contoured.
     pub fn of_grid(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Self, FilterError> {
         let chosen = ChosenArray::new(grid, options.array.as_deref(), options.component)?;
-        let pde = KnownPde::of_grid(grid, options)?;
+        let pde = KnownPde::of_grid(grid, options)?.map(Arc::new);
         let Cells { triangles, tetrahedra, left_out, folded } = Cells::new(grid)?;
         if triangles.is_none() && tetrahedra.is_none() {
             let cells = grid.types.iter().copied().collect();
@@ -89,7 +90,7 @@ impl<'a> Solution<'a> {
         mesh: TriangleMesh<'a>,
         values: &'a [f64],
         gradients: Gradients<'a>,
-        pde: Option<KnownPde>,
+        pde: Option<Arc<KnownPde>>,
     ) -> Result<Self, FilterError> {
         let domain = Domain::of_arrays(mesh, values, gradients)?;
         let diagonal = domain.mesh.diagonal();
@@ -104,7 +105,7 @@ impl<'a> Solution<'a> {
         mesh: TetrahedronMesh<'a>,
         values: &'a [f64],
         gradients: Gradients<'a>,
-        pde: Option<KnownPde>,
+        pde: Option<Arc<KnownPde>>,
     ) -> Result<Self, FilterError> {
         let domain = Domain::of_arrays(mesh, values, gradients)?;
         let diagonal = domain.mesh.diagonal();
@@ -112,7 +113,7 @@ impl<'a> Solution<'a> {
     }
 
     /// Values without cells.
-    fn of_values(values: &'a [f64], pde: Option<KnownPde>, diagonal: f64) -> Self {
+    fn of_values(values: &'a [f64], pde: Option<Arc<KnownPde>>, diagonal: f64) -> Self {
         Self {
             label: SOLUTION.to_owned(),
             single: false,
@@ -212,7 +213,8 @@ impl<const CORNERS: usize> Domain<'_, CORNERS> {
         if self.ghosts.is_none() { 0 } else { ranges.exclude(|simplex| self.is_ghost(simplex)) }
     }
 
-    fn is_ghost(&self, simplex: usize) -> bool {
+    /// Whether a simplex is one of another process.
+    pub fn is_ghost(&self, simplex: usize) -> bool {
         self.ghosts.as_ref().is_some_and(|ghosts| ghosts[simplex])
     }
 }

@@ -26,6 +26,10 @@ pub enum SamplePoints {
 const PARTS: usize = 3;
 
 impl SamplePoints {
+    /// So many random points where no number is told: as many as there are fixed ones in a
+    /// triangle.
+    pub const DEFAULT_COUNT: u16 = 9;
+
     /// The fixed points, with their weights, which sum to one.
     ///
     /// Cut by `λᵢ = n / PARTS`, a simplex falls into parts of `CORNERS - 1` kinds: those of

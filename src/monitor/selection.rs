@@ -75,6 +75,23 @@ impl Selection {
         Ok(order)
     }
 
+    /// As [`Selection::select`], but where no cell is above so many times the average, those
+    /// above the average, and if all are the same, all of them, unless all are zero: for whoever
+    /// wants a number of cells, and not that all are alike.
+    ///
+    /// # Errors
+    /// As [`Selection::select`].
+    pub fn select_some(self, values: &[f64]) -> Result<Vec<u32>, SelectionError> {
+        let selected = self.select(values)?;
+        match self {
+            Self::AboveAverage(_) if selected.is_empty() => {
+                let above = Self::AboveAverage(1.0).select(values)?;
+                if above.is_empty() { Self::Above(0.0).select(values) } else { Ok(above) }
+            }
+            _ => Ok(selected),
+        }
+    }
+
     fn check(self) -> Result<(), SelectionError> {
         match self {
             Self::Fraction(part) | Self::Bulk(part) if !(part > 0.0 && part <= 1.0) => {
@@ -131,6 +148,17 @@ mod tests {
         assert_eq!(Selection::Fraction(0.1).select(&uniform).unwrap().len(), 3);
         // where there is no need, there is none to share
         assert!(Selection::Bulk(0.5).select(&[0.0; 3]).unwrap().is_empty());
+    }
+
+    #[test]
+    fn something_is_selected_while_there_is_any() {
+        let some = |values: &[f64]| Selection::AboveAverage(2.0).select_some(values).unwrap();
+        assert_eq!(some(&VALUES), [1]);
+        assert_eq!(some(&[1.0, 2.0, f64::NAN]), [1]);
+        assert_eq!(some(&[3.0, 3.0, 3.0]), [0, 1, 2]);
+        assert!(some(&[0.0, 0.0]).is_empty() && some(&[f64::NAN]).is_empty());
+        // a tolerance that is met is met
+        assert!(Selection::Above(5.0).select_some(&[3.0]).unwrap().is_empty());
     }
 
     #[test]

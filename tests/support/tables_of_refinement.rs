@@ -232,9 +232,8 @@ impl Method {
         max_points: usize,
     ) -> TriangleMesh<'static> {
         let monitor = self.monitor(mesh, problem);
-        let above = |factor| Selection::AboveAverage(factor).select(&monitor).unwrap();
-        let selected = [above(2.0), above(1.0)].into_iter().find(|cells| !cells.is_empty());
-        let marks = Marks { max_points, ..Marks::all(selected.as_deref().unwrap_or_default()) };
+        let selected = Selection::AboveAverage(2.0).select_some(&monitor).unwrap();
+        let marks = Marks { max_points, ..Marks::all(&selected) };
         let refined = delaunay(mesh, &marks, &DelaunayOptions::default()).unwrap();
         assert!(refined.points.len() > mesh.points().len(), "no step is made");
         TriangleMesh::new(refined.points, refined.cells).unwrap()

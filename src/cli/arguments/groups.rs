@@ -2,13 +2,17 @@
 
 use std::path::PathBuf;
 
+use anyhow::{Context, Result};
 use clap::Args;
 use vtu2contour::contour::Levels;
-use vtu2contour::filter::{Component, ContourOptions, GradientSource};
+use vtu2contour::filter::{Component, ContourOptions, GradientSource, Monitor};
+use vtu2contour::monitor::{SamplePoints, Selection};
 use vtu2contour::vtk::{Floats, WriteOptions};
 
-use super::names::{EncodingName, Interpolant, MethodName, PredictorName};
-use super::values::{Time, component, level, parameter, positive, range, time};
+use super::names::{
+    EncodingName, Interpolant, MethodName, MonitorName, PredictorName, SecondInterpolantName,
+};
+use super::values::{Time, component, level, parameter, positive, range, samples, selection, time};
 
 /// Which array.
 #[derive(Debug, Args)]
@@ -87,6 +91,37 @@ pub struct InterpolantArguments {
     /// Where the PDE's right-hand side takes the solution from
     #[arg(long, value_name = "P", value_enum, default_value_t = PredictorName::Quadratic)]
     pub predictor: PredictorName,
+}
+
+/// Which monitor, and which cells it selects.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Where")]
+pub struct MonitorArguments {
+    /// By this monitor, a number for each cell that says how much it needs to be refined
+    #[arg(short, long, value_name = "M", value_enum)]
+    pub monitor: Option<MonitorName>,
+
+    /// What --monitor interpolation compares the cubics with [default: with --pde fqi, in solids
+    /// p3; without it quadratic-precision]
+    #[arg(long, value_name = "I", value_enum)]
+    second: Option<SecondInterpolantName>,
+
+    /// Where monitors look in each cell: 'fixed', points that are mirrored with the cell;
+    /// random:SEED or random:SEED:N, that many random points (9 if not told), the same for the
+    /// same seed; N, so many of seed 0
+    #[arg(
+        long, value_name = "HOW", default_value = "fixed", value_parser = samples
+    )]
+    pub samples: SamplePoints,
+
+    /// Which cells are selected: average:K, those above K times the average (the thesis has 2);
+    /// fraction:F, this part of the cells; bulk:F, the fewest cells with this part of the sum;
+    /// tolerance:V, those above V
+    ///
+    /// Cells whose numbers differ by rounding alone are selected together, so that symmetric
+    /// meshes stay symmetric.
+    #[arg(long, value_name = "HOW:NUMBER", value_parser = selection)]
+    pub select: Option<Selection>,
 }
 
 /// How lines are drawn.
@@ -211,6 +246,31 @@ impl InterpolantArguments {
             predictor: self.predictor.into(),
             ..options
         }
+    }
+}
+
+impl MonitorArguments {
+    /// The monitor asked for; the defect if there is none.
+    pub fn monitor(&self) -> Monitor {
+        match self.monitor {
+            None | Some(MonitorName::Defect) => Monitor::Defect,
+            Some(MonitorName::Area) => Monitor::SurfaceArea,
+            Some(MonitorName::Stepwise) => Monitor::StepwiseError,
+            Some(MonitorName::Interpolation) => {
+                Monitor::InterpolationError(self.second.map(Into::into))
+            }
+        }
+    }
+}
+
+impl RunArguments {
+    /// Starts as many threads as are asked for.
+    pub fn start_threads(&self) -> Result<()> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .context("cannot start the threads")
     }
 }
 

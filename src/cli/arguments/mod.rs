@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use vtu2contour::filter::{ContourOptions, MarkedBy, RefineOptions};
+use vtu2contour::filter::{ContourOptions, MarkedBy, MonitorOptions, RefineOptions};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::WriteOptions;
 
@@ -14,8 +14,8 @@ mod names;
 mod values;
 
 pub use groups::{
-    InterpolantArguments, LevelArguments, LineArguments, OutputArguments, RunArguments,
-    ScalarArguments, SurfaceArguments,
+    InterpolantArguments, LevelArguments, LineArguments, MonitorArguments, OutputArguments,
+    RunArguments, ScalarArguments, SurfaceArguments,
 };
 pub use values::Time;
 
@@ -48,8 +48,12 @@ const EXAMPLES: &str = "\
   The cubics on a mesh as fine as they need, for ParaView:
     vtu2contour interpolate solution.vtu -o fine.vtu --tolerance 1e-3
 
-  A finer mesh where the cell array eta is large, of at most 2500 points:
-    vtu2contour refine solution.vtu -o finer.vtu --by eta --max-points 2500
+  How far each cell is from satisfying the PDE, as a cell array for ParaView:
+    vtu2contour monitor solution.vtu -o defect.vtu -m defect --pde 'uxx + uyy = -6'
+
+  A mesh of 2500 points, finer where that is largest:
+    vtu2contour refine solution.vtu -o finer.vtu -m defect --pde 'uxx + uyy = -6' \
+      --max-points 2500
 
 Without a gradient array (say where it is with -g) gradients are recovered from
 the values. 'vtu2contour --help' explains every option.";
@@ -89,6 +93,8 @@ pub enum Command {
     Info(InfoArguments),
     /// Evaluate the cubics at given points, on a finer mesh or on a regular grid
     Interpolate(InterpolateArguments),
+    /// Say where the mesh should be finer: a number for each cell, as a cell array
+    Monitor(MonitorJobArguments),
     /// Refine the mesh where that is asked for, with all its data, in one step or several
     Refine(RefineArguments),
     /// Print completions for a shell, to be sourced by it
@@ -179,12 +185,93 @@ impl InterpolateArguments {
     }
 }
 
+/// Arguments of `monitor`.
+#[derive(Debug, Args)]
+#[command(
+    group = clap::ArgGroup::new("which").required(true).arg("monitor"),
+    after_help = MONITOR_EXAMPLES
+)]
+pub struct MonitorJobArguments {
+    /// The grid or surface (.vtu .pvtu .vtp .pvtp .vtk), or a step of a series (.pvd)
+    ///
+    /// Its solids are judged, or if it has none its two-dimensional cells.
+    pub input: PathBuf,
+
+    /// The grid with the monitor as a cell array: .vtu
+    ///
+    /// Cells that could not be judged are NaN there, and counted. A cell that is no triangle or
+    /// tetrahedron has the sum of its parts' numbers ('defect', 'area'), or their mean by size
+    /// ('stepwise', 'interpolation').
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    #[command(flatten)]
+    pub monitor: MonitorArguments,
+
+    /// Name of the cell array [default: DefectMonitor, AreaMonitor, StepwiseMonitor or
+    /// InterpolationMonitor]; with --select the array of marks (1: selected) has 'Marks' after it
+    #[arg(long, value_name = "NAME", help_heading = "Output")]
+    pub name: Option<String>,
+
+    /// Write the summary as JSON: cells, sum, mean, largest, not_judged, selected
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub stats: Option<PathBuf>,
+
+    /// Encoding of the arrays in the output
+    #[arg(
+        long, value_name = "E", value_enum, default_value_t = names::EncodingName::Raw,
+        help_heading = "Output"
+    )]
+    encoding: names::EncodingName,
+
+    #[command(flatten)]
+    pub scalars: ScalarArguments,
+
+    #[command(flatten)]
+    pub interpolant: InterpolantArguments,
+
+    #[command(flatten)]
+    pub running: RunArguments,
+}
+
+const MONITOR_EXAMPLES: &str = "\
+\x1b[1;32mExamples:\x1b[0m
+  The defect, with the cells above twice its average marked:
+    vtu2contour monitor in.vtu -o out.vtu -m defect --pde 'uxx + uyy = -k*u' \\
+      --param k=20 --select average:2
+
+  Without a PDE, and the fewest cells with half of it all, for 'refine --marks':
+    vtu2contour monitor in.vtu -o out.vtu -m interpolation --name eta --select bulk:0.5
+    vtu2contour refine out.vtu -o finer.vtu --marks etaMarks";
+
+impl MonitorJobArguments {
+    /// What the arguments ask for.
+    pub fn options(&self) -> MonitorOptions {
+        MonitorOptions {
+            monitor: self.monitor.monitor(),
+            samples: self.monitor.samples,
+            selection: self.monitor.select,
+            name: self.name.clone(),
+        }
+    }
+
+    /// What the arguments say of the solution.
+    pub fn solution(&self) -> ContourOptions {
+        self.interpolant.options(self.scalars.options())
+    }
+
+    /// How files are written.
+    pub fn write_options(&self) -> WriteOptions {
+        WriteOptions { encoding: self.encoding.into(), ..WriteOptions::default() }
+    }
+}
+
 /// Sweeps of smoothing, at most: more move points by little.
 const SWEEPS: usize = 10;
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("marking").required(true))]
+#[command(group = clap::ArgGroup::new("marking").required(true).args(["marks", "by", "monitor"]))]
 pub struct RefineArguments {
     /// The grid (.vtu .pvtu .vtp .pvtp .vtk), or a step of a series (.pvd)
     ///
@@ -204,21 +291,21 @@ pub struct RefineArguments {
     /// Refine the cells with another number than 0 in this cell array
     ///
     /// In several steps their parts are refined again.
-    #[arg(long, value_name = "NAME", group = "marking", help_heading = "Where")]
+    #[arg(
+        long, value_name = "NAME", help_heading = "Where",
+        conflicts_with_all = ["select", "samples", "second"]
+    )]
     pub marks: Option<String>,
 
-    /// Refine by the numbers of this cell array, such as an error indicator: see --select
-    #[arg(long, value_name = "NAME", group = "marking", help_heading = "Where")]
+    /// Refine by the numbers of this cell array, such as an error indicator: see --select, which
+    /// is average:2 if not given
+    #[arg(
+        long, value_name = "NAME", help_heading = "Where", conflicts_with_all = ["samples", "second"]
+    )]
     pub by: Option<String>,
 
-    /// Which cells --by selects: average:K, above K times the average; fraction:F, this part
-    /// of the cells; bulk:F, the fewest cells with this part of the sum; above:V, those
-    /// above V
-    #[arg(
-        long, value_name = "HOW:NUMBER", default_value = "average:2", requires = "by",
-        value_parser = values::selection, help_heading = "Where"
-    )]
-    pub select: vtu2contour::monitor::Selection,
+    #[command(flatten)]
+    pub monitor: MonitorArguments,
 
     /// How triangles are divided; tetrahedra are always bisected
     #[arg(
@@ -245,17 +332,22 @@ pub struct RefineArguments {
     #[arg(long = "boundary", value_name = "FILE", help_heading = "Refinement")]
     pub boundaries: Vec<PathBuf>,
 
-    /// The most points that the refined mesh may have; with triangles it is met exactly, if as
-    /// many are asked for
+    /// The most points that the refined mesh may have
+    ///
+    /// With --monitor and without --steps, so many steps are made as it takes to have them, in
+    /// which average:K selects the cells above the average where none are above K times that.
+    /// With triangles the number is met exactly if as many are asked for (by 'red-green' on
+    /// meshes of more than a few triangles); with tetrahedra nearly.
     #[arg(long, value_name = "N", help_heading = "Refinement")]
     pub max_points: Option<usize>,
 
-    /// So many steps of refinement, each of the mesh of the one before
+    /// So many steps of refinement, each of the mesh of the one before [default: 1, or with
+    /// --monitor and --max-points as many as it takes]
     #[arg(
-        long, value_name = "N", default_value_t = 1, help_heading = "Refinement",
-        value_parser = clap::value_parser!(u16).range(1..=1000)
+        long, value_name = "N", help_heading = "Refinement",
+        value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_STEPS))
     )]
-    pub steps: u16,
+    steps: Option<u16>,
 
     /// A command that solves on a mesh: run after each step, and before the first if the array
     /// of --by is not there
@@ -283,14 +375,27 @@ pub struct RefineArguments {
     pub running: RunArguments,
 }
 
+/// Steps of refinement at most.
+const MOST_STEPS: u16 = 1000;
+
 impl RefineArguments {
+    /// How many steps are made at most.
+    pub fn steps(&self) -> u16 {
+        let goes_on = self.monitor.monitor.is_some() && self.max_points.is_some();
+        self.steps.unwrap_or(if goes_on { MOST_STEPS } else { 1 })
+    }
+
     /// What the arguments ask for.
     ///
     /// `boundaries`: the curves of the files.
     pub fn options(&self, boundaries: Vec<Vec<Vector>>) -> RefineOptions {
+        let selection = self.monitor.select.unwrap_or_default();
         let marked = match (&self.marks, &self.by) {
             (Some(name), _) => MarkedBy::Marks(name.clone()),
-            (None, name) => MarkedBy::Array(name.clone().unwrap_or_default(), self.select),
+            (None, Some(name)) => MarkedBy::Array(name.clone(), selection),
+            (None, None) => {
+                MarkedBy::Monitor(self.monitor.monitor(), self.monitor.samples, selection)
+            }
         };
         RefineOptions {
             method: self.method.into(),

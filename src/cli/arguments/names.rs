@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use vtu2contour::contour::lines::Method;
-use vtu2contour::filter::{InterpolantKind, RefineMethod};
+use vtu2contour::filter::{InterpolantKind, RefineMethod, SecondInterpolant};
 use vtu2contour::interpolant::Predictor;
 use vtu2contour::refine::{Smoothing, TriangleMethod};
 use vtu2contour::vtk::Encoding;
@@ -73,6 +73,35 @@ pub enum RefineMethodName {
     Delaunay,
 }
 
+/// Names of the monitors.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MonitorName {
+    /// How far the cubics are from satisfying --pde, integrated over the cell
+    Defect,
+    /// The area of the cubics' graph over the cell: it follows slopes, not errors
+    Area,
+    /// What would change if each edge were halved: the mean difference to the cubics on that
+    /// mesh, whose new points have the cubics' values and gradients
+    Stepwise,
+    /// The mean difference to a second interpolant of the same data: --second
+    Interpolation,
+}
+
+/// Names of what the interpolant is compared with.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum SecondInterpolantName {
+    /// The pure quartic of each triangle: --pde holds at six points
+    Pqi,
+    /// The full quartic of each triangle: --pde holds at sixteen points
+    Fqi,
+    /// The pure tri-cubic of each tetrahedron by itself: --pde holds at four points
+    P3,
+    /// The cubic of each cell by itself, which reproduces quadratics: needs no --pde
+    QuadraticPrecision,
+    /// The linear interpolant: needs no --pde
+    Linear,
+}
+
 /// Names of the ways to move points.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum SmoothingName {
@@ -80,6 +109,18 @@ pub enum SmoothingName {
     Laplacian,
     /// Towards where the worst triangle would be equilateral
     Optimised,
+}
+
+impl From<SecondInterpolantName> for SecondInterpolant {
+    fn from(name: SecondInterpolantName) -> Self {
+        match name {
+            SecondInterpolantName::Pqi => Self::Pqi,
+            SecondInterpolantName::Fqi => Self::Fqi,
+            SecondInterpolantName::P3 => Self::P3,
+            SecondInterpolantName::QuadraticPrecision => Self::QuadraticPrecision,
+            SecondInterpolantName::Linear => Self::Linear,
+        }
+    }
 }
 
 impl From<SmoothingName> for Smoothing {

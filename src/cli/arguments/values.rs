@@ -1,7 +1,7 @@
 //! Values that options take, read from text.
 
 use vtu2contour::filter::Component;
-use vtu2contour::monitor::Selection;
+use vtu2contour::monitor::{SamplePoints, Selection};
 
 /// A time of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,19 +81,37 @@ pub fn counts(text: &str) -> Result<[usize; 3], String> {
     }
 }
 
-/// Reads `average:K`, `fraction:F`, `bulk:F` or `above:V`.
+/// Reads `average:K`, `fraction:F`, `bulk:F` or `tolerance:V`.
 pub fn selection(text: &str) -> Result<Selection, String> {
-    let known = "give average:K, fraction:F, bulk:F or above:V";
+    let known = "give average:K, fraction:F, bulk:F or tolerance:V";
     let (how, number) = text.split_once(':').ok_or(known)?;
     let number = level(number)?;
     let selection = match how.trim() {
         "average" => Selection::AboveAverage(number),
         "fraction" => Selection::Fraction(number),
         "bulk" => Selection::Bulk(number),
-        "above" => Selection::Above(number),
+        "tolerance" => Selection::Above(number),
         _ => return Err(known.to_owned()),
     };
     selection.select(&[]).map(|_| selection).map_err(|error| error.to_string())
+}
+
+/// Reads `fixed`, `random:SEED`, `random:SEED:N` or `N`.
+pub fn samples(text: &str) -> Result<SamplePoints, String> {
+    let known = "give fixed, random:SEED, random:SEED:N, or N (above 0 and up to 65535)";
+    let count = |text: &str| match text.parse() {
+        Ok(count) if count > 0 => Ok(count),
+        _ => Err(known.to_owned()),
+    };
+    let seed = |text: &str| text.parse().map_err(|_| known.to_owned());
+    let (count, seed) = match text.split(':').collect::<Vec<_>>()[..] {
+        ["fixed"] => return Ok(SamplePoints::Fixed),
+        ["random", number] => (SamplePoints::DEFAULT_COUNT, seed(number)?),
+        ["random", number, points] => (count(points)?, seed(number)?),
+        [points] => (count(points)?, 0),
+        _ => return Err(known.to_owned()),
+    };
+    Ok(SamplePoints::Random { count, seed })
 }
 
 /// Reads `NAME=V`.

@@ -1,21 +1,27 @@
 //! How long a step of refinement takes: a quarter of a million and a million cells, a tenth of
-//! them marked. `cargo run --release --example refinement_speed`
+//! them marked; by the floor alone, and by the filter, which makes the cubics and carries the
+//! data. `cargo run --release --example refinement_speed`
 
 use std::time::Instant;
 
-use vtu2contour::mesh::{TetrahedronMesh, TriangleMesh, Vector};
+use vtu2contour::filter::{ContourOptions, MarkedBy, RefineMethod, RefineOptions, refine};
+use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
+use vtu2contour::refine::delaunay::{DelaunayOptions, delaunay};
 use vtu2contour::refine::{Marks, TriangleMethod, refine_tetrahedra};
+use vtu2contour::vtk::{DataArray, UnstructuredGrid};
+
+const METHODS: [TriangleMethod; 4] = [
+    TriangleMethod::LongestEdge,
+    TriangleMethod::NewestVertex,
+    TriangleMethod::RedGreen,
+    TriangleMethod::Centroid,
+];
 
 fn main() {
     for n in [354, 708] {
         let mesh = square(n);
         let marked = tenth(mesh.triangles().len());
-        for method in [
-            TriangleMethod::LongestEdge,
-            TriangleMethod::NewestVertex,
-            TriangleMethod::RedGreen,
-            TriangleMethod::Centroid,
-        ] {
+        for method in METHODS {
             let start = Instant::now();
             let refined = method.refine(&mesh, &Marks::all(&marked)).map(|refined| refined.cells);
             tell(
@@ -24,6 +30,14 @@ fn main() {
                 start,
                 &format!("{method:?}"),
             );
+        }
+        let start = Instant::now();
+        let refined = delaunay(&mesh, &Marks::all(&marked), &DelaunayOptions::default());
+        let cells = refined.map_or(0, |refined| refined.cells.len());
+        tell(mesh.triangles().len(), cells, start, "Delaunay");
+        let grid = grid(&mesh, 5, &marked);
+        for method in [RefineMethod::default(), RefineMethod::Delaunay] {
+            with_data(&grid, method);
         }
     }
     for n in [35, 55] {
@@ -39,11 +53,55 @@ fn main() {
         let start = Instant::now();
         let cells = refine_tetrahedra(&mesh, &marks).map_or(0, |refined| refined.cells.len());
         tell(mesh.tetrahedra().len(), cells, start, "tetrahedra, bounded");
+        with_data(&grid(&mesh, 10, &marked), RefineMethod::default());
     }
 }
 
+/// The mesh with values and gradients of a function, another array, and marks.
+fn grid<const CORNERS: usize>(
+    mesh: &SimplexMesh<CORNERS>,
+    kind: u8,
+    marked: &[u32],
+) -> UnstructuredGrid {
+    let points = mesh.points();
+    let numbers = |vectors: &mut dyn Iterator<Item = Vector>| -> Vec<f64> {
+        vectors.flat_map(<[f64; 3]>::from).collect()
+    };
+    let coordinates = numbers(&mut points.iter().copied());
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, coordinates));
+    mesh.simplices().iter().for_each(|corners| grid.push_cell(kind, &corners.map(i64::from)));
+    let slope = Vector::new(3.0, 2.0, 1.0);
+    let phase = |point: &Vector| slope.dot(point);
+    let values: Vec<f64> = points.iter().map(|point| phase(point).sin()).collect();
+    let gradients = numbers(&mut points.iter().map(|point| slope * phase(point).cos()));
+    grid.point_data.push(DataArray::new("u", 1, values));
+    grid.point_data.push(DataArray::new("grad_u", 3, gradients.clone()));
+    grid.point_data.push(DataArray::new("other", 3, gradients));
+    let mut marks = vec![0_u8; mesh.simplices().len()];
+    marked.iter().for_each(|&cell| marks[cell as usize] = 1);
+    grid.cell_data.push(DataArray::new("marks", 1, marks));
+    grid
+}
+
+/// The filter, data and all.
+fn with_data(grid: &UnstructuredGrid, method: RefineMethod) {
+    let solution = ContourOptions { array: Some("u".to_owned()), ..ContourOptions::default() };
+    let options = RefineOptions {
+        method,
+        marked: MarkedBy::Marks("marks".to_owned()),
+        smoothing: None,
+        max_points: None,
+        regions: None,
+        boundaries: Vec::new(),
+        solution,
+    };
+    let start = Instant::now();
+    let cells = refine(grid, &options).map_or(0, |refined| refined.grid.types.len());
+    tell(grid.types.len(), cells, start, &format!("filter, {method:?}"));
+}
+
 fn tell(before: usize, after: usize, start: Instant, what: &str) {
-    println!("{what:20} {before:8} -> {after:8} cells: {:.2} s", start.elapsed().as_secs_f64());
+    println!("{what:30} {before:8} -> {after:8} cells: {:.2} s", start.elapsed().as_secs_f64());
 }
 
 /// Every tenth, in an order without pattern.

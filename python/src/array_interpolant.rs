@@ -1,7 +1,7 @@
 //! The interpolant of NumPy arrays, which stay where they are.
 
 use std::borrow::Cow;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
@@ -101,7 +101,7 @@ impl<'a> Slices<'a> {
     fn solution(
         &self,
         options: &ContourOptions,
-        pde: Option<KnownPde>,
+        pde: Option<Arc<KnownPde>>,
     ) -> Result<Solution<'a>, FilterError> {
         match self.cells {
             Cells::Triangles(cells) => {
@@ -189,7 +189,7 @@ impl ArrayInterpolant {
         let borrowed = kept.borrow(py)?;
         let slices = borrowed.slices()?;
         let (recovered, origin, interpolation) = job::run(py, || {
-            let pde = KnownPde::of_arrays(&options, slices.points.len(), arrays)?;
+            let pde = KnownPde::of_arrays(&options, slices.points.len(), arrays)?.map(Arc::new);
             let Interpolant { solution, interpolation } =
                 Interpolant::new(slices.solution(&options, pde)?, &options)?;
             let domains = (solution.triangles, solution.tetrahedra);

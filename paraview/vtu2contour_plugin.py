@@ -299,14 +299,14 @@ REFINE_PROPERTIES = """
 </StringVectorProperty>
 <IntVectorProperty name="Select" command="SetSelect" number_of_elements="1" default_values="0">
   <EnumerationDomain name="enum">
-    <Entry value="0" text="Above N times the average"/>
-    <Entry value="1" text="The part N of the cells"/>
-    <Entry value="2" text="The fewest with the part N of the sum"/>
-    <Entry value="3" text="Above N"/><Entry value="4" text="Other than zero"/>
+    <Entry value="0" text="Above Number times the average"/>
+    <Entry value="1" text="This part of the cells"/>
+    <Entry value="2" text="The fewest with this part of the sum"/>
+    <Entry value="3" text="Above Number"/><Entry value="4" text="Other than zero"/>
   </EnumerationDomain>
-  <Documentation>Which cells the array selects; N is the number below.</Documentation>
+  <Documentation>Which cells the array selects, by the number below.</Documentation>
 </IntVectorProperty>
-<DoubleVectorProperty name="Number" label="N" command="SetNumber" number_of_elements="1"
+<DoubleVectorProperty name="Number" command="SetNumber" number_of_elements="1"
     default_values="2">
   <DoubleRangeDomain name="range" min="0"/>
   <Documentation>A factor, a part between 0 and 1, or a number in the unit of the

@@ -171,6 +171,42 @@ fn new_points_of_a_curved_boundary_are_on_it() {
     assert!(ends.len() > 36, "{}", ends.len());
 }
 
+/// An interface that is curved stays one, and gets onto its curve: cells between the old edge and
+/// the curve belong to the region that they lie in now.
+#[test]
+fn an_interface_may_be_curved() {
+    let sides = 8;
+    let ring = |radius: f64| {
+        (0..sides).map(move |k| on_circle(radius, TAU * f64::from(k) / f64::from(sides)))
+    };
+    let points: Vec<Vector> =
+        [Vector::zeros()].into_iter().chain(ring(0.5)).chain(ring(1.0)).collect();
+    let n = sides as u32;
+    let mut cells: Vec<[u32; 3]> = (0..n).map(|k| [0, 1 + k, 1 + (k + 1) % n]).collect();
+    for k in 0..n {
+        let [a, b] = [1 + k, 1 + (k + 1) % n];
+        cells.extend([[a, a + n, b + n], [a, b + n, b]]);
+    }
+    let mut regions: Vec<u32> = (0..3 * n).map(|cell| u32::from(cell < n)).collect();
+    let mut mesh = TriangleMesh::new(points, cells).unwrap();
+    let curves = [(0..=720).map(|k| on_circle(0.5, TAU * f64::from(k % 720) / 720.0)).collect()];
+    for _ in 0..4 {
+        let options = DelaunayOptions { regions: &regions, curves: &curves, ..Default::default() };
+        let all: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
+        let refined = refine(&mesh, &all, &options);
+        regions = refined.parents.iter().map(|&parent| regions[parent as usize]).collect();
+        mesh = mesh_of(&refined);
+    }
+    let inner = (0..mesh.triangles().len()).filter(|&cell| regions[cell] == 1);
+    let disk = TriangleMesh::new(
+        mesh.points().to_vec(),
+        inner.map(|cell| mesh.triangles()[cell]).collect(),
+    );
+    let rim: HashSet<u32> = boundary(&disk.unwrap()).into_iter().flatten().collect();
+    assert!(rim.len() >= 32, "{}", rim.len());
+    assert!(rim.iter().all(|&p| (mesh.points()[p as usize].norm() - 0.5).abs() < 1e-5));
+}
+
 #[test]
 fn symmetric_meshes_stay_symmetric() {
     for options in [plain(), DelaunayOptions::default()] {

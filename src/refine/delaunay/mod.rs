@@ -16,6 +16,7 @@ mod choice;
 mod curve;
 mod error;
 mod features;
+mod origins;
 mod plane;
 mod quality;
 mod ties;
@@ -23,20 +24,19 @@ mod triangulation;
 
 pub use error::DelaunayError;
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use self::choice::{Addition, by_thesis, without_conflicts};
 use self::curve::Curve;
 use self::features::{Feature, edges_and_features, refuse_touching};
+use self::origins::Origins;
 use self::plane::Plane;
 use self::quality::improvements;
 use self::ties::Ties;
 use self::triangulation::{Face, Triangulation, centroid, refuse_duplicates};
 use super::{Marks, NewPoint, Refinement};
 use crate::interruption::checkpoint;
-use crate::mesh::{PointLocator, TriangleMesh, Vector};
+use crate::mesh::{TriangleMesh, Vector};
 
 /// What the triangulation keeps, and how well.
 #[derive(Clone, Copy, Debug)]
@@ -108,10 +108,15 @@ struct Job<'a> {
     numbers: Vec<u32>,
     /// The feature that each new point halved; nothing for points inside.
     halved: Vec<Option<Feature>>,
+    /// A number for each cell of the mesh, or none.
+    regions: &'a [u32],
 }
 
 impl<'a> Job<'a> {
-    fn new(mesh: &'a TriangleMesh<'a>, options: &DelaunayOptions) -> Result<Self, DelaunayError> {
+    fn new(
+        mesh: &'a TriangleMesh<'a>,
+        options: &DelaunayOptions<'a>,
+    ) -> Result<Self, DelaunayError> {
         let plane = Plane::new(mesh)?;
         let (used, numbers) = used_points(mesh);
         let points: Vec<_> =
@@ -134,7 +139,8 @@ impl<'a> Job<'a> {
             .map_err(|error| error.renumbered(&used))?;
         // last: cells that do not fit together mostly touch, too
         refuse_touching(&triangulation.features)?;
-        Ok(Self { mesh, plane, triangulation, used, numbers, halved: Vec::new() })
+        let regions = options.regions;
+        Ok(Self { mesh, plane, triangulation, used, numbers, halved: Vec::new(), regions })
     }
 
     /// Adds the points that marks and angles ask for, `room` of them at most.
@@ -206,7 +212,8 @@ impl<'a> Job<'a> {
         let position = |point: u32| self.triangulation.position(point);
         let first_new = self.used.len() as u32;
         let is_kept = |edge| self.triangulation.features.contains_key(&edge);
-        let mut triangles: Vec<[u32; 3]> = faces.iter().map(|(face, _)| face.points).collect();
+        let (faces, regions): (Vec<Face>, Vec<u32>) = faces.into_iter().unzip();
+        let mut triangles: Vec<[u32; 3]> = faces.iter().map(|face| face.points).collect();
         Ties { position: &position, first_new, is_kept: &is_kept }.settle(&mut triangles);
         let old = self.mesh.points().len() as u32;
         let number = |point: u32| match self.used.get(point as usize) {
@@ -223,16 +230,18 @@ impl<'a> Job<'a> {
             }
         }));
         triangles.par_iter_mut().for_each(|cell| *cell = cell.map(number));
-        let origins = Origins::new(self.mesh);
-        let cells: Vec<([u32; 3], u32)> =
-            triangles.par_iter().map(|&cell| origins.of_cell(cell, &points)).collect();
-        let new_points = points[old as usize..].par_iter().zip(&self.halved);
-        let new_points = new_points.map(|(point, halved)| match halved {
+        let origins = Origins::new(self.mesh, self.regions);
+        // both triangles of a diagonal that was turned are of one region
+        let cells = triangles.par_iter().zip(&regions);
+        let cells = cells.map(|(&cell, &region)| origins.of_cell(cell, region, &points));
+        let (cells, parents): (Vec<[u32; 3]>, Vec<u32>) = cells.unzip();
+        let around = parents_around(&cells, &parents, old, self.halved.len());
+        let new_points = points[old as usize..].par_iter().zip(&self.halved).zip(&around);
+        let new_points = new_points.map(|((point, halved), around)| match halved {
             Some(feature) => NewPoint::Edge { ends: feature.edge, at: feature.middle() },
-            None => origins.of_point(point),
+            None => origins.of_point(point, around),
         });
         let new_points = new_points.collect();
-        let (cells, parents) = cells.into_iter().unzip();
         Refinement { points, cells, parents, new_points, ..Refinement::default() }
     }
 
@@ -245,6 +254,23 @@ impl<'a> Job<'a> {
     }
 }
 
+/// Where the cells around each new point come from: a few of them.
+fn parents_around(
+    cells: &[[u32; 3]],
+    parents: &[u32],
+    first_new: u32,
+    count: usize,
+) -> Vec<arrayvec::ArrayVec<u32, 8>> {
+    let mut around = vec![arrayvec::ArrayVec::new(); count];
+    for (corners, &parent) in cells.iter().zip(parents) {
+        for point in corners.iter().filter_map(|corner| corner.checked_sub(first_new)) {
+            // more would only be looked at in vain
+            let _ = around[point as usize].try_push(parent);
+        }
+    }
+    around
+}
+
 /// The points that cells use, in their order; and for each point its place among them.
 fn used_points(mesh: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
     let mut numbers = vec![u32::MAX; mesh.points().len()];
@@ -255,48 +281,6 @@ fn used_points(mesh: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
         used.push(point as u32);
     }
     (used, numbers)
-}
-
-/// Finds where cells and points come from.
-struct Origins<'a> {
-    mesh: &'a TriangleMesh<'a>,
-    locator: PointLocator,
-    /// The cells by their points, ascending.
-    cells: HashMap<[u32; 3], u32>,
-}
-
-impl<'a> Origins<'a> {
-    fn new(mesh: &'a TriangleMesh<'a>) -> Self {
-        let named =
-            mesh.triangles().iter().zip(0..).map(|(&cell, number)| (ascending(cell), number));
-        Self { mesh, locator: PointLocator::new(mesh), cells: named.collect() }
-    }
-
-    /// A cell turned as the one it lies in, which is told too. A cell of the input is as it was.
-    fn of_cell(&self, cell: [u32; 3], points: &[Vector]) -> ([u32; 3], u32) {
-        if let Some(&parent) = self.cells.get(&ascending(cell)) {
-            return (self.mesh.triangles()[parent as usize], parent);
-        }
-        let [a, b, c] = cell.map(|point| points[point as usize]);
-        let middle = (a + b + c) / 3.0;
-        let found = self.locator.locate(self.mesh, &middle, f64::INFINITY);
-        let parent = found.map_or(0, |found| found.simplex);
-        let normal = (b - a).cross(&(c - a));
-        let is_turned = normal.dot(self.mesh.frame(parent).normal()) < 0.0;
-        (if is_turned { [cell[0], cell[2], cell[1]] } else { cell }, parent as u32)
-    }
-
-    fn of_point(&self, point: &Vector) -> NewPoint<3> {
-        match self.locator.locate(self.mesh, point, f64::INFINITY) {
-            Some(found) => NewPoint::Inside { cell: found.simplex as u32, at: found.at },
-            None => NewPoint::Inside { cell: 0, at: [1.0 / 3.0; 3] },
-        }
-    }
-}
-
-fn ascending(mut cell: [u32; 3]) -> [u32; 3] {
-    cell.sort_unstable();
-    cell
 }
 
 /// The longest edge of a face: its length, and its ends.

@@ -5,8 +5,7 @@
 //! shorter diagonal, or of equal ones that whose line passes nearer to the middle of the mesh.
 //! Only edges of triangles at new points are looked at.
 
-use std::collections::{HashMap, HashSet};
-
+use rayon::slice::ParallelSliceMut;
 use spade::Point2;
 
 use super::features::sorted;
@@ -74,29 +73,31 @@ impl Ties<'_> {
 
     /// The edges of triangles that a new point is a corner of, with both their triangles, sorted.
     fn edges(&self, triangles: &[[u32; 3]]) -> Vec<([u32; 2], Sides)> {
-        let mut edges: HashMap<[u32; 2], Sides> = HashMap::new();
-        let is_near = |triangle: &&[u32; 3]| triangle.iter().any(|p| *p >= self.first_new);
-        for &[a, b, c] in triangles.iter().filter(is_near) {
-            for edge in [[a, b], [b, c], [c, a]].map(sorted) {
-                if !(self.is_kept)(edge) {
-                    edges.insert(edge, Sides::default());
-                }
-            }
+        let is_near = |triangle: &[u32; 3]| triangle.iter().any(|p| *p >= self.first_new);
+        let count = triangles.iter().flatten().max().map_or(0, |&most| most as usize + 1);
+        let mut is_end = vec![false; count];
+        for triangle in triangles.iter().filter(|triangle| is_near(triangle)) {
+            triangle.iter().for_each(|&point| is_end[point as usize] = true);
         }
-        let ends: HashSet<u32> = edges.keys().flatten().copied().collect();
+        // the edge, its side, the triangle there and its corner opposite
+        let mut named: Vec<([u32; 2], usize, usize, u32)> = Vec::new();
         for (number, &[a, b, c]) in triangles.iter().enumerate() {
-            if [a, b, c].iter().filter(|point| ends.contains(point)).count() < 2 {
-                continue;
-            }
-            for (edge, opposite) in [([a, b], c), ([b, c], a), ([c, a], b)] {
-                if let Some(sides) = edges.get_mut(&sorted(edge)) {
-                    sides[usize::from(edge[0] > edge[1])] = Some((number, opposite));
+            for ([p, q], opposite) in [([a, b], c), ([b, c], a), ([c, a], b)] {
+                if is_end[p as usize] && is_end[q as usize] {
+                    named.push((sorted([p, q]), usize::from(p > q), number, opposite));
                 }
             }
         }
-        let mut edges: Vec<_> = edges.into_iter().collect();
-        edges.sort_unstable_by_key(|(edge, _)| *edge);
-        edges
+        named.par_sort_unstable();
+        let groups = named.chunk_by(|one, next| one.0 == next.0);
+        let near = groups.filter(|group| group.iter().any(|side| is_near(&triangles[side.2])));
+        let near = near.filter(|group| !(self.is_kept)(group[0].0));
+        let both = near.map(|group| {
+            let mut sides = Sides::default();
+            group.iter().for_each(|&(_, side, number, c)| sides[side] = Some((number, c)));
+            (group[0].0, sides)
+        });
+        both.collect()
     }
 
     /// Whether the other diagonal is as good by Delaunay's rule, and better by ours.

@@ -302,10 +302,10 @@ def test_files_are_refined_as_by_the_module(installed, tmp_path):
     wanted = {
         "average": ({"Number": 1.5}, {"by": "eta", "select": "average:1.5"}),
         "bulk": (
-            {"Select": 2, "Number": 0.25, "MaximumPoints": 70},
-            {"by": "eta", "select": "bulk:0.25", "max_points": 70},
+            {"Select": 2, "Number": 0.25, "MaximumPoints": 100},
+            {"by": "eta", "select": "bulk:0.25", "max_points": 100},
         ),
-        "marks": ({"Select": 4}, {"marks": "eta", "max_points": 70}),
+        "marks": ({"Select": 4}, {"marks": "eta", "max_points": 100}),
         "pde": (
             {"MaximumPoints": 0, "PDE": "uxx + uyy + uzz = -14*u"},
             {"marks": "eta", "pde": "uxx + uyy + uzz = -14*u"},

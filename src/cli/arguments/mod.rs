@@ -266,12 +266,31 @@ impl MonitorJobArguments {
     }
 }
 
+const REFINE_EXAMPLES: &str = "\
+\x1b[1;32mExamples:\x1b[0m
+  The cells with the largest half of an error indicator, as its sum goes:
+    vtu2contour refine in.vtu -o out.vtu --by eta --select bulk:0.5
+
+  Five steps, with a program that solves on each mesh and writes eta:
+    vtu2contour refine in.vtu -o out.vtu --by eta --select bulk:0.5 --steps 5 \\
+      --solver 'python solve.py {input} {output}'
+
+  Exactly 2500 points, where the PDE is met least:
+    vtu2contour refine in.vtu -o out.vtu -m defect --pde 'uxx + uyy = -6' --max-points 2500
+
+  The thesis' hybrid, with new boundary points on a circle and the regions' borders kept:
+    vtu2contour refine in.vtu -o out.vtu --by eta --method delaunay --regions material \\
+      --boundary circle.vtp";
+
 /// Sweeps of smoothing, at most: more move points by little.
 const SWEEPS: usize = 10;
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("marking").required(true).args(["marks", "by", "monitor"]))]
+#[command(
+    group = clap::ArgGroup::new("marking").required(true).args(["marks", "by", "monitor"]),
+    after_help = REFINE_EXAMPLES
+)]
 pub struct RefineArguments {
     /// The grid (.vtu .pvtu .vtp .pvtp .vtk), or a step of a series (.pvd)
     ///

@@ -7,7 +7,7 @@ cubic: smooth, every point on its level, islands inside a cell included.
 
 ``contour(mesh, levels)`` contours a mesh of pyvista or vtk; ``Interpolant(points, cells, u,
 grad)`` does the same with NumPy arrays, and is kept for any number of levels; ``info(mesh)``
-tells what would be done.
+tells what would be done. ``monitor(mesh, kind)`` says where the mesh should be finer.
 
 >>> import numpy as np
 >>> import vtu2contour as vc
@@ -25,6 +25,7 @@ from ._core import MissingArrayError, NothingToContourError
 from .contours import Contours
 from .interpolant import Interpolant
 from .mesh_contour import MeshInterpolant, contour, info
+from .mesh_monitor import monitor
 
 __all__ = [
     "Contours",
@@ -35,4 +36,5 @@ __all__ = [
     "__version__",
     "contour",
     "info",
+    "monitor",
 ]

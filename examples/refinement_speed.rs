@@ -2,7 +2,7 @@
 //! them marked; by the floor alone, and by the filter, which makes the cubics and carries the
 //! data. `cargo run --release --example refinement_speed`
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use vtu2contour::filter::{ContourOptions, MarkedBy, RefineMethod, RefineOptions, refine};
 use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
@@ -22,7 +22,7 @@ fn main() {
         let mesh = square(n);
         let marked = tenth(mesh.triangles().len());
         for method in METHODS {
-            let start = Instant::now();
+            let start = Clock::start();
             let refined = method.refine(&mesh, &Marks::all(&marked)).map(|refined| refined.cells);
             tell(
                 mesh.triangles().len(),
@@ -31,7 +31,7 @@ fn main() {
                 &format!("{method:?}"),
             );
         }
-        let start = Instant::now();
+        let start = Clock::start();
         let refined = delaunay(&mesh, &Marks::all(&marked), &DelaunayOptions::default());
         let cells = refined.map_or(0, |refined| refined.cells.len());
         tell(mesh.triangles().len(), cells, start, "Delaunay");
@@ -43,14 +43,14 @@ fn main() {
     for n in [35, 55] {
         let mesh = cube(n);
         let marked = tenth(mesh.tetrahedra().len());
-        let start = Instant::now();
+        let start = Clock::start();
         let refined = refine_tetrahedra(&mesh, &Marks::all(&marked));
         let cells = refined.as_ref().map_or(0, |refined| refined.cells.len());
         tell(mesh.tetrahedra().len(), cells, start, "tetrahedra");
         // half of the points that this takes
         let added = refined.map_or(0, |refined| refined.new_points.len());
         let marks = Marks { max_points: mesh.points().len() + added / 2, ..Marks::all(&marked) };
-        let start = Instant::now();
+        let start = Clock::start();
         let cells = refine_tetrahedra(&mesh, &marks).map_or(0, |refined| refined.cells.len());
         tell(mesh.tetrahedra().len(), cells, start, "tetrahedra, bounded");
         with_data(&grid(&mesh, 10, &marked), RefineMethod::default());
@@ -95,13 +95,37 @@ fn with_data(grid: &UnstructuredGrid, method: RefineMethod) {
         boundaries: Vec::new(),
         solution,
     };
-    let start = Instant::now();
+    let start = Clock::start();
     let cells = refine(grid, &options).map_or(0, |refined| refined.grid.types.len());
     tell(grid.types.len(), cells, start, &format!("filter, {method:?}"));
 }
 
-fn tell(before: usize, after: usize, start: Instant, what: &str) {
-    println!("{what:30} {before:8} -> {after:8} cells: {:.2} s", start.elapsed().as_secs_f64());
+fn tell(before: usize, after: usize, start: Clock, what: &str) {
+    let wall = start.wall.elapsed().as_secs_f64();
+    let used = processor_time().zip(start.used).map(|(now, then)| now - then);
+    // on a machine with other work this says more
+    let used = used.map_or(String::new(), |t| format!(", {:.2} s of processors", t.as_secs_f64()));
+    println!("{what:30} {before:8} -> {after:8} cells: {wall:.2} s{used}");
+}
+
+/// When something began, by the wall's clock and by the time that processors worked for it.
+struct Clock {
+    wall: Instant,
+    used: Option<Duration>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self { wall: Instant::now(), used: processor_time() }
+    }
+}
+
+/// The time that processors worked for this program, where Linux tells it (in hundredths).
+fn processor_time() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let numbers = text.rsplit(')').next()?.split_whitespace().skip(11).take(2);
+    let ticks: u64 = numbers.filter_map(|number| number.parse::<u64>().ok()).sum();
+    Some(Duration::from_millis(10 * ticks))
 }
 
 /// Every tenth, in an order without pattern.

@@ -362,7 +362,7 @@ REFINE_PROPERTIES = """
 </StringVectorProperty>
 """
 
-SELECTIONS = ("average", "fraction", "bulk", "above")
+SELECTIONS = ("average", "fraction", "bulk", "tolerance")
 DIVISIONS = ("bisect", "newest-vertex", "red-green", "centroid", "delaunay")
 SMOOTHINGS = (None, "laplacian", "optimised")
 

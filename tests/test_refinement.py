@@ -49,6 +49,11 @@ def same(one: pv.UnstructuredGrid, other: pv.UnstructuredGrid) -> None:
             ["--by", "eta", "--select", "bulk:0.3", "--method", "delaunay", "--regions", "eta"],
         ),
         (
+            False,
+            {"monitor": "interpolation", "second": "pqi", "max_points": 70},
+            ["--monitor", "interpolation", "--second", "pqi", "--max-points", "70"],
+        ),
+        (
             True,
             {"by": "eta", "select": "fraction:0.2", "pde": "uxx + uyy + uzz = -14*u"},
             ["--by", "eta", "--select", "fraction:0.2", "--pde", "uxx + uyy + uzz = -14*u"],
@@ -192,7 +197,7 @@ def test_what_is_wrong_is_told():
         ({}, "one of by and marks"),
         ({"by": "eta", "marks": "eta"}, "one of by and marks"),
         ({"by": "none"}, "no cell array 'none'"),
-        ({"by": "eta", "select": "most"}, "select must be average:K"),
+        ({"by": "eta", "select": "most"}, "select must be 'average:K'"),
         ({"by": "eta", "select": "bulk:2"}, "1 at most"),
         ({"by": "eta", "select": "best:2"}, "select must be 'average' or"),
         ({"by": "eta", "method": "halves"}, "method must be 'bisect' or"),

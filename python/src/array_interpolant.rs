@@ -11,12 +11,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vtu2contour::filter::{
     ContourOptions, FilterError, GradientOrigin, Gradients, Interpolant, InterpolantKind,
-    Interpolation, KnownPde, Locators, Solution,
+    Interpolation, KnownPde, Locators, Monitored, Solution,
 };
 use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
 
 use super::arrays::{rows, slice, vectors};
 use super::job;
+use super::monitor::{self, MonitorChoice};
 use super::options::{DrawingOptions, SolutionOptions};
 use super::output::{self, Done};
 
@@ -30,8 +31,14 @@ pub struct ArrayInterpolant {
     recovered: Option<Vec<Vector>>,
     origin: GradientOrigin,
     interpolation: Interpolation,
+    /// What it was made by.
+    options: ContourOptions,
+    pde: Option<Arc<KnownPde>>,
     locators: OnceLock<Locators>,
 }
+
+/// A PDE as text, its parameters, and the arrays that it may name.
+type PdeParts = (String, Vec<(String, f64)>, Vec<(String, Vec<f64>)>);
 
 /// Points, cells, values and gradients.
 struct Arrays {
@@ -188,10 +195,10 @@ impl ArrayInterpolant {
         let kept = Arrays { points, cells, values, gradients };
         let borrowed = kept.borrow(py)?;
         let slices = borrowed.slices()?;
-        let (recovered, origin, interpolation) = job::run(py, || {
+        let (recovered, origin, interpolation, pde) = job::run(py, || {
             let pde = KnownPde::of_arrays(&options, slices.points.len(), arrays)?.map(Arc::new);
             let Interpolant { solution, interpolation } =
-                Interpolant::new(slices.solution(&options, pde)?, &options)?;
+                Interpolant::new(slices.solution(&options, pde.clone())?, &options)?;
             let domains = (solution.triangles, solution.tetrahedra);
             let gradients = match domains {
                 (Some(domain), _) => domain.gradients,
@@ -202,10 +209,18 @@ impl ArrayInterpolant {
                 Cow::Owned(vectors) => Some(vectors),
                 Cow::Borrowed(_) => None,
             };
-            Ok((recovered, gradients.origin, interpolation.into_owned()))
+            Ok((recovered, gradients.origin, interpolation.into_owned(), pde))
         })?;
         drop(borrowed);
-        Ok(Self { arrays: kept, recovered, origin, interpolation, locators: OnceLock::new() })
+        Ok(Self {
+            arrays: kept,
+            recovered,
+            origin,
+            interpolation,
+            options,
+            pde,
+            locators: OnceLock::new(),
+        })
     }
 
     /// Its contours, and what was done.
@@ -221,6 +236,36 @@ impl ArrayInterpolant {
             Ok((interpolant.output(&contours, options.bare_output()), done))
         })?;
         Ok((output::bare_contours(py, output)?, output::report(py, &done)?))
+    }
+
+    /// A monitor of its cells, and what people should know. `pde`: another PDE than that which
+    /// it was made by, with its parameters and the arrays that it may name.
+    fn monitor<'py>(
+        &self,
+        py: Python<'py>,
+        choice: MonitorChoice,
+        pde: Option<PdeParts>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let options = choice.options()?;
+        let monitored = self.with(py, |interpolant| {
+            let other = match pde {
+                None => None,
+                Some((text, parameters, arrays)) => {
+                    let (pde, points) = (Some(text), interpolant.solution.values.len());
+                    let given = ContourOptions { pde, parameters, ..self.options.clone() };
+                    KnownPde::of_arrays(&given, points, arrays)?
+                }
+            };
+            let pde = other.as_ref().or(self.pde.as_deref());
+            let domains = (&interpolant.solution.triangles, &interpolant.solution.tetrahedra);
+            let cells = match domains {
+                (Some(domain), _) => domain.count(),
+                (_, Some(domain)) => domain.count(),
+                (None, None) => 0,
+            };
+            Monitored::new(interpolant, cells, &options, &self.options, pde)
+        })?;
+        monitor::dictionary(py, monitored, &self.interpolation.warnings)
     }
 
     /// Values at points, and gradients.

@@ -18,13 +18,16 @@ create_exception!(
 );
 
 /// What the texts name as options of the command line are arguments here.
-const ARGUMENTS: [(&str, &str); 14] = [
+const ARGUMENTS: [(&str, &str); 17] = [
     ("give --array NAME", "give scalars=NAME"),
     ("--component 0..", "component=0.."),
     ("--component mag", "component='mag'"),
     ("(--gradient '", "(gradient='"),
     ("leave --gradient out", "leave gradient out"),
     ("--gradient", "gradient"),
+    ("give --pde EQUATION", "give pde=EQUATION"),
+    ("--select", "select"),
+    ("leave --interpolant out", "leave interpolant out"),
     ("--pde", "pde"),
     ("give --param ", "give parameters "),
     ("--tolerance, --nside and --triangles", "tolerance, nside and triangles"),

@@ -5,12 +5,13 @@ use std::borrow::Cow;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vtu2contour::filter::{ContourOptions, Interpolant, Locators, Solution, prepared};
+use vtu2contour::filter::{ContourOptions, Interpolant, Locators, Monitored, Solution, prepared};
 use vtu2contour::vtk::UnstructuredGrid;
 
 use super::arrays::{rows, vectors};
 use super::grid::GridParts;
 use super::job;
+use super::monitor::{self, MonitorChoice};
 use super::options::{DrawingOptions, SolutionOptions};
 use super::output::{self, Done};
 
@@ -20,6 +21,8 @@ pub struct GridInterpolant {
     /// The grid as it is contoured, for its data.
     grid: UnstructuredGrid,
     interpolant: Interpolant<'static>,
+    /// What it was made by.
+    options: ContourOptions,
     locators: std::sync::OnceLock<Locators>,
 }
 
@@ -29,13 +32,13 @@ impl GridInterpolant {
     #[new]
     fn new(py: Python, grid: GridParts, options: SolutionOptions) -> PyResult<Self> {
         let (grid, options) = (grid.grid()?, options.options()?);
-        let (grid, interpolant) = job::run(py, move || {
+        let (grid, interpolant, options) = job::run(py, move || {
             let grid = prepared(Cow::Owned(grid), &options)?.into_owned();
             let solution = Solution::of_grid(&grid, &options)?;
             let interpolant = Interpolant::new(solution, &options)?;
-            Ok((grid, interpolant))
+            Ok((grid, interpolant, options))
         })?;
-        Ok(Self { grid, interpolant, locators: std::sync::OnceLock::new() })
+        Ok(Self { grid, interpolant, options, locators: std::sync::OnceLock::new() })
     }
 
     /// Its contours, and what was done.
@@ -52,6 +55,17 @@ impl GridInterpolant {
             Ok((output.poly_data(&self.grid), done))
         })?;
         Ok((output::poly_data(py, data)?, output::report(py, &done)?))
+    }
+
+    /// A monitor of its cells, and what people should know.
+    fn monitor<'py>(&self, py: Python<'py>, choice: MonitorChoice) -> PyResult<Bound<'py, PyDict>> {
+        let options = choice.options()?;
+        let monitored = job::run(py, || {
+            let pde = self.interpolant.solution.pde.as_deref();
+            let cells = self.grid.types.len();
+            Monitored::new(&self.interpolant, cells, &options, &self.options, pde)
+        })?;
+        monitor::dictionary(py, monitored, &self.interpolant.interpolation.warnings)
     }
 
     /// Values at points, and gradients.

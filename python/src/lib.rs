@@ -6,6 +6,7 @@ mod error;
 mod grid;
 mod grid_interpolant;
 mod job;
+mod monitor;
 mod options;
 mod output;
 mod refinement;

@@ -6,6 +6,7 @@ use vtu2contour::contour::Levels;
 use vtu2contour::contour::lines::Method;
 use vtu2contour::filter::{Component, ContourOptions, GradientSource, InterpolantKind};
 use vtu2contour::interpolant::Predictor;
+use vtu2contour::monitor::Selection;
 
 /// What the interpolant is made of: a dictionary with these keys.
 #[derive(FromPyObject)]
@@ -117,7 +118,25 @@ impl DrawingOptions {
     }
 }
 
+/// How cells are selected, and by which number.
+///
+/// # Errors
+/// `ValueError` for a word that is none of those to choose from.
+pub fn selection((how, number): (String, f64)) -> PyResult<Selection> {
+    type ByNumber = fn(f64) -> Selection;
+    let selections: [(&str, ByNumber); 4] = [
+        ("average", Selection::AboveAverage),
+        ("fraction", Selection::Fraction),
+        ("bulk", Selection::Bulk),
+        ("tolerance", Selection::Above),
+    ];
+    Ok(chosen("select", &how, &selections)?(number))
+}
+
 /// What a word stands for.
+///
+/// # Errors
+/// `ValueError` if it is none of those to choose from.
 pub fn chosen<T: Copy>(argument: &str, word: &str, choices: &[(&str, T)]) -> PyResult<T> {
     match choices.iter().find(|(name, _)| *name == word) {
         Some((_, choice)) => Ok(*choice),

@@ -5,11 +5,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vtu2contour::filter::{
-    FilterError, MarkedBy, RefineMethod, RefineOptions, RefinedGrid, boundary_curves, refine,
-    without_origins,
+    FilterError, MarkedBy, MonitorOptions, RefineMethod, RefineOptions, RefinedGrid,
+    boundary_curves, refine, without_origins,
 };
 use vtu2contour::mesh::{SimplexMesh, Vector};
-use vtu2contour::monitor::Selection;
 use vtu2contour::refine::delaunay::{DelaunayOptions, delaunay};
 use vtu2contour::refine::{
     Marks, NewPoint, Refinement, Smoothing, TriangleMethod, refine_tetrahedra, smooth,
@@ -19,7 +18,8 @@ use super::arrays::{rows, slice, vectors};
 use super::error::in_python;
 use super::grid::GridParts;
 use super::job;
-use super::options::{SolutionOptions, chosen};
+use super::monitor::MonitorChoice;
+use super::options::{SolutionOptions, chosen, selection};
 use super::output;
 
 /// How is refined: a dictionary with these keys.
@@ -67,18 +67,29 @@ impl RefinementOptions<'_> {
     }
 }
 
-/// Which cells a cell array asks for: its name, and how they are selected by its numbers, with
-/// which number; nothing for those with another number than zero.
-type Asked = (String, Option<(String, f64)>);
+/// Which cells are refined: a dictionary with these keys, one of which is given.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    /// A cell array with another number than zero in them.
+    marks: Option<String>,
+    /// A cell array, and how cells are selected by its numbers, with which number.
+    by: Option<(String, (String, f64))>,
+    /// A monitor and how cells are selected by it.
+    monitor: Option<MonitorChoice>,
+}
 
-fn selection((how, number): (String, f64)) -> PyResult<Selection> {
-    let selections: [(&str, fn(f64) -> Selection); 4] = [
-        ("average", Selection::AboveAverage),
-        ("fraction", Selection::Fraction),
-        ("bulk", Selection::Bulk),
-        ("above", Selection::Above),
-    ];
-    Ok(chosen("select", &how, &selections)?(number))
+impl Asked {
+    fn marked(self) -> PyResult<MarkedBy> {
+        Ok(match (self.monitor, self.by, self.marks) {
+            (Some(choice), ..) => {
+                let MonitorOptions { monitor, samples, selection, .. } = choice.options()?;
+                MarkedBy::Monitor(monitor, samples, selection.unwrap_or_default())
+            }
+            (None, Some((name, how)), _) => MarkedBy::Array(name, selection(how)?),
+            (None, None, name) => MarkedBy::Marks(name.unwrap_or_default()),
+        })
+    }
 }
 
 /// A grid that was taken apart (see `vtu2contour/_vtk.py`) refined, and what was done.
@@ -93,11 +104,7 @@ pub fn refine_grid<'py>(
     options: RefinementOptions,
     is_first: bool,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
-    let (name, how) = asked;
-    let marked = match how.map(selection).transpose()? {
-        Some(selection) => MarkedBy::Array(name, selection),
-        None => MarkedBy::Marks(name),
-    };
+    let marked = asked.marked()?;
     let Method { method, smoothing, max_points, boundaries } = options.method()?;
     let solution = solution.options()?;
     let options =

@@ -33,15 +33,21 @@ class ArrayInterpolant(_Interpolant):
         options: dict[str, Any],
         arrays: list[tuple[str, NDArray[np.float64]]],
     ) -> ArrayInterpolant: ...
+    def monitor(
+        self,
+        choice: dict[str, Any],
+        pde: tuple[str, list[tuple[str, float]], list[tuple[str, NDArray[np.float64]]]] | None,
+    ) -> dict[str, Any]: ...
 
 class GridInterpolant(_Interpolant):
     """The interpolant of a grid, with the data that travel along."""
 
     def __new__(cls, grid: dict[str, Any], options: dict[str, Any]) -> GridInterpolant: ...
+    def monitor(self, choice: dict[str, Any]) -> dict[str, Any]: ...
 
 def refine_grid(
     grid: dict[str, Any],
-    asked: tuple[str, tuple[str, float] | None],
+    asked: dict[str, Any],
     regions: str | None,
     solution: dict[str, Any],
     options: dict[str, Any],

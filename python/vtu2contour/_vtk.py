@@ -93,6 +93,14 @@ def unstructured_grid(parts: dict[str, Any]) -> Any:
     return grid
 
 
+def with_cell_arrays(mesh: Any, arrays: dict[str, np.ndarray]) -> Any:
+    """A copy of a mesh with further cell arrays; it shares all others with the mesh."""
+    copy = mesh.NewInstance()
+    copy.ShallowCopy(mesh)
+    _put(copy.GetCellData(), [(name, values, []) for name, values in arrays.items()], [])
+    return copy
+
+
 def _as_grid(mesh: Any) -> Any:
     """The mesh as a ``vtkUnstructuredGrid``."""
     if mesh.IsA("vtkUnstructuredGrid"):

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from .contours import Contours
-from .options import drawing_options, solution_options, tell
+from .options import drawing_options, monitor_options, solution_options, tell
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -141,6 +141,67 @@ class Interpolant:
         arrays, report = self._core.contour(options)
         tell(report.pop("warnings"))
         return Contours(**arrays, levels=report.pop("levels"), counts=report)
+
+    def monitor(
+        self,
+        kind: str = "defect",
+        *,
+        pde: str | None = None,
+        parameters: Mapping[str, float] | None = None,
+        arrays: Mapping[str, ArrayLike] | None = None,
+        second: str | None = None,
+        samples: int | None = None,
+        seed: int = 0,
+    ) -> NDArray[np.float64]:
+        """How much each cell needs to be refined.
+
+        Parameters
+        ----------
+        kind
+            ``"defect"``: how far the cubic is from satisfying the PDE ``L u = g``, about the
+            integral of ``|L p - g|`` over the cell, in the unit of g times an area or volume.
+            ``"area"``: that of the cubic's graph. ``"stepwise"``: the mean difference to the
+            cubics on the mesh with every edge halved, whose new points have the cubics' own
+            values and gradients. ``"interpolation"``: the mean difference to a second
+            interpolant. The last two are in the unit of ``u``.
+        pde, parameters, arrays
+            The PDE; by default the one that the interpolant was made of.
+        second
+            What ``"interpolation"`` compares with: ``"pqi"``, ``"fqi"`` (quartics on triangles),
+            ``"p3"`` (in tetrahedra), which need a PDE, ``"quadratic-precision"`` or ``"linear"``.
+            By default ``"fqi"`` or ``"p3"``, and without a PDE ``"quadratic-precision"``.
+        samples, seed
+            So many random points of each cell, the same for the same seed; by default fixed
+            points, which are mirrored with the cell.
+
+        Returns
+        -------
+        Shape (m,): a number for each cell; NaN where it cannot be computed.
+
+        Raises
+        ------
+        ValueError
+            If there is no such monitor, or it needs a PDE and there is none.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import vtu2contour as vc
+        >>> points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        >>> f = vc.Interpolant(points, [[0, 1, 2], [0, 2, 3]], (points**2).sum(axis=1), 2 * points)
+        >>> f.monitor("defect", pde="uxx + uyy = 3").round(12).tolist()  # it is 4: 1 too much
+        [0.5, 0.5]
+        """
+        choice = monitor_options(kind, second=second, samples=samples, seed=seed)
+        known = None
+        if pde is not None:
+            given = solution_options(parameters=parameters)["parameters"]
+            named = [(name, np.asarray(a, np.float64)) for name, a in (arrays or {}).items()]
+            known = (pde, given, named)
+        found = self._core.monitor(choice, known)
+        tell(found["warnings"])
+        (numbers,) = found["arrays"].values()
+        return numbers
 
     @property
     def range(self) -> tuple[float, float]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core, _vtk
 from .interpolant import _vectors
-from .options import drawing_options, solution_options, tell
+from .options import drawing_options, monitor_options, solution_options, tell
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -60,6 +60,8 @@ class MeshInterpolant:
             merge_points=merge_points,
         )
         self._is_of_pyvista = _vtk.is_of_pyvista(mesh)
+        #: for the data that travel along with a monitor
+        self._mesh = mesh
         #: an empty mesh of the same blocks; nothing for a mesh that is no blocks
         self._structure = None
         #: the interpolant of each block, by its number in the whole
@@ -144,7 +146,35 @@ class MeshInterpolant:
             double=double,
             size=size or self._size,
         )
-        output = self._contoured(options)
+        return self._as_given(self._contoured(options))
+
+    def monitor(
+        self,
+        kind: str = "defect",
+        *,
+        second: str | None = None,
+        samples: int | None = None,
+        seed: int = 0,
+        select: str | None = None,
+        name: str | None = None,
+    ) -> Any:
+        """The mesh with a monitor of its cells. Parameters are those of
+        :func:`vtu2contour.monitor`; blocks without the array stay as they are.
+        """
+        choice = monitor_options(
+            kind, second=second, samples=samples, seed=seed, select=select, name=name
+        )
+        if self._structure is None:
+            return self._as_given(_monitored(self._mesh, self._blocks[0], choice))
+        output = self._structure.NewInstance()
+        output.ShallowCopy(self._mesh)
+        for number, block, put in _blocks(output):
+            if number in self._blocks:
+                put(_monitored(block, self._blocks[number], choice))
+        return self._as_given(output)
+
+    def _as_given(self, output: Any) -> Any:
+        """A mesh of vtk as one of pyvista, if that was given."""
         if not self._is_of_pyvista:
             return output
         import pyvista
@@ -312,6 +342,12 @@ def info(mesh: Any, **options: Any) -> dict[str, Any]:
     cannot be split) or ``singular`` (the PDE says nothing there).
     """
     return MeshInterpolant(mesh, **options).info
+
+
+def _monitored(mesh: Any, core: Any, choice: dict[str, Any]) -> Any:
+    found = core.monitor(choice)
+    tell(found["warnings"])
+    return _vtk.with_cell_arrays(mesh, found["arrays"])
 
 
 def _contoured(core: Any, options: dict[str, Any]) -> Any:

@@ -70,6 +70,37 @@ def drawing_options(
     }
 
 
+def monitor_options(
+    kind: str,
+    *,
+    second: str | None = None,
+    samples: int | None = None,
+    seed: int = 0,
+    select: str | None = None,
+    name: str | None = None,
+) -> dict[str, Any]:
+    """Which monitor, and what is made of it."""
+    if samples is not None and not 1 <= samples < 2**16:
+        raise ValueError(f"samples must be from 1 to {2**16 - 1}, not {samples}")
+    return {
+        "kind": kind,
+        "second": second,
+        "samples": None if samples is None else (int(samples), int(seed)),
+        "select": None if select is None else selection(select),
+        "name": name,
+    }
+
+
+def selection(text: str) -> tuple[str, float]:
+    """How cells are selected, and by which number: of a text such as ``"bulk:0.5"``."""
+    how, _, number = text.partition(":")
+    try:
+        return how.strip(), float(number)
+    except ValueError:
+        known = "'average:K', 'fraction:F', 'bulk:F' or 'tolerance:V'"
+        raise ValueError(f"select must be {known}, not '{text}'") from None
+
+
 def tell(texts: Sequence[str]) -> None:
     """What people should know about their data, as warnings of the line that called us."""
     depth, frame = 1, sys._getframe()

@@ -13,6 +13,8 @@ from typing import Any
 import pyvista
 
 from .mesh_contour import MeshInterpolant, contour, info
+from .mesh_monitor import monitor
+from .refinement import refine
 
 
 @pyvista.register_dataset_accessor("dei", pyvista.DataObject)
@@ -29,6 +31,14 @@ class Dei:
     def interpolant(self, **options: Any) -> MeshInterpolant:
         """The interpolant, for many levels: see :class:`vtu2contour.MeshInterpolant`."""
         return MeshInterpolant(self._mesh, **options)
+
+    def monitor(self, kind: str = "defect", **options: Any) -> Any:
+        """Where the mesh should be finer: see :func:`vtu2contour.monitor`."""
+        return monitor(self._mesh, kind, **options)
+
+    def refine(self, **options: Any) -> Any:
+        """A finer mesh: see :func:`vtu2contour.refine`."""
+        return refine(self._mesh, **options)
 
     def info(self, **options: Any) -> dict[str, Any]:
         """What would be contoured: see :func:`vtu2contour.info`."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core, _vtk
 from .interpolant import _cells, _vectors
-from .options import solution_options, tell
+from .options import monitor_options, selection, solution_options, tell
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 #: How far points of a solver's mesh may be from where they were, relative to the greatest
 #: coordinate: it may keep them in single precision.
 SAME = 1e-6
+
+#: Steps of refinement at most, where a number of points is to be met.
+MOST_STEPS = 1000
 
 
 class SolverError(RuntimeError):
@@ -38,13 +41,14 @@ def refine(
     *,
     by: str | None = None,
     marks: str | None = None,
+    monitor: str | None = None,
     select: str = "average:2",
     method: str = "bisect",
     smooth: str | None = None,
     regions: str | None = None,
     boundary: Any = None,
     max_points: int | None = None,
-    steps: int = 1,
+    steps: int | None = None,
     solver: Callable[[Any], Any] | None = None,
     scalars: str | None = None,
     component: int | str | None = None,
@@ -53,6 +57,9 @@ def refine(
     parameters: Mapping[str, float] | None = None,
     interpolant: str = "pci",
     predictor: str = "quadratic",
+    second: str | None = None,
+    samples: int | None = None,
+    seed: int = 0,
 ) -> Any:
     """Refines a mesh where that is asked for, with all its data.
 
@@ -69,9 +76,14 @@ def refine(
     marks
         Instead of ``by``: cell array with another number than 0 in the cells to be refined. In
         several steps their parts are refined again.
+    monitor
+        Instead of ``by``: ``"defect"``, ``"area"``, ``"stepwise"`` or ``"interpolation"``, computed
+        anew for each step: see :func:`vtu2contour.monitor`, also for ``second``, ``samples`` and
+        ``seed``.
     select
-        Which cells ``by`` selects: ``"average:K"``, above K times the average; ``"fraction:F"``,
-        this part of the cells; ``"bulk:F"``, the fewest with this part of the sum; ``"above:V"``.
+        Which cells ``by`` or ``monitor`` selects: ``"average:K"``, above K times the average;
+        ``"fraction:F"``, this part of the cells; ``"bulk:F"``, the fewest with this part of the
+        sum; ``"tolerance:V"``, above V.
     method
         How triangles are divided: ``"bisect"`` (across the longest edge), ``"newest-vertex"``,
         ``"red-green"``, ``"centroid"`` or ``"delaunay"`` (the thesis' hybrid, in the plane).
@@ -87,7 +99,8 @@ def refine(
     max_points
         The most points that the refined mesh may have; with triangles it is met exactly.
     steps
-        So many steps, each of the mesh of the one before.
+        So many steps, each of the mesh of the one before; by default one, or with ``monitor`` and
+        ``max_points`` as many as it takes to have the points.
     solver
         A callable that gets a mesh of the kind that was given and returns it solved: the same
         points and cells, in their order, with its own arrays (None: it changed the one it got).
@@ -121,12 +134,14 @@ def refine(
     >>> fine.n_points, sorted(fine.cell_data)
     (28, ['OriginalCellIds', 'eta'])
     """
-    asked = _asked(by, marks, select)
+    asked = _asked(by, marks, monitor, select, second, samples, seed)
     if not hasattr(mesh, "IsA"):
         raise TypeError(
             f"a mesh of pyvista or vtk is needed, not a {type(mesh).__name__}; "
             "vtu2contour.refine_arrays takes NumPy arrays"
         )
+    if steps is None:
+        steps = MOST_STEPS if monitor is not None and max_points is not None else 1
     if steps > 1 and by is not None and solver is None:
         raise ValueError(
             "'by' tells nothing of refined cells: leave steps out, or give a solver, which "
@@ -151,6 +166,8 @@ def refine(
         mesh = solve(mesh, 0, None)
     last = mesh if solve is not None else None
     for step in range(1, steps + 1):
+        if step > 1 and max_points is not None and mesh.GetNumberOfPoints() >= max_points:
+            break
         parts, report = _core.refine_grid(_vtk.parts_of(mesh), **options, is_first=step == 1)
         tell(report["warnings"])
         if step > 1 and report["added"] == 0:
@@ -342,18 +359,26 @@ def refine_arrays(
     return Refined(**found, old_cells=corners.astype(np.int64))
 
 
-def _asked(by: str | None, marks: str | None, select: str) -> tuple[str, tuple[str, float] | None]:
+def _asked(
+    by: str | None,
+    marks: str | None,
+    monitor: str | None,
+    select: str,
+    second: str | None,
+    samples: int | None,
+    seed: int,
+) -> dict[str, Any]:
     """Which cells, as the compiled part takes it."""
-    if (by is None) == (marks is None):
-        raise ValueError("give one of by and marks, the name of a cell array")
-    if by is None:
-        return str(marks), None
-    how, _, number = select.partition(":")
-    try:
-        return by, (how, float(number))
-    except ValueError:
-        known = "average:K, fraction:F, bulk:F or above:V"
-        raise ValueError(f"select must be {known}, not '{select}'") from None
+    if sum(given is not None for given in (by, marks, monitor)) != 1:
+        raise ValueError("give one of by and marks, the name of a cell array, and monitor")
+    choice = None
+    if monitor is not None:
+        choice = monitor_options(monitor, second=second, samples=samples, seed=seed, select=select)
+    return {
+        "marks": marks,
+        "by": None if by is None else (by, selection(select)),
+        "monitor": choice,
+    }
 
 
 def _refinement_options(

@@ -98,8 +98,13 @@ fn curvature(faces: &Faces, equations: &[FaceEquations], direction: &[f64]) -> f
     in_order(sums)
 }
 
-/// For each face the inverse of the diagonal of the normal equations; zero where no
-/// equation knows the face.
+/// An entry of the diagonal of the normal equations is one half on average, as each matrix has
+/// norm 1. A smaller one than this is scaled as this: the equations hardly know such a face. (Where
+/// three sides are at right angles, the function that its coefficient stands before is harmonic,
+/// and only rounding is left of its column; scaled to one it would decide everything.)
+const LEAST_DIAGONAL: f64 = 1e-3;
+
+/// For each face the inverse of the diagonal of the normal equations.
 fn inverse_diagonal(faces: &Faces, equations: &[FaceEquations]) -> Vec<f64> {
     let squares = |equations: &FaceEquations| {
         [0, 1, 2, 3].map(|face| equations.matrix.iter().map(|row| row[face] * row[face]).sum())
@@ -107,7 +112,7 @@ fn inverse_diagonal(faces: &Faces, equations: &[FaceEquations]) -> Vec<f64> {
     let sides: Vec<[f64; 4]> = equations.par_iter().map(squares).collect();
     let mut diagonal = sum_over_sides(faces, &sides);
     for entry in &mut diagonal {
-        *entry = if *entry > 0.0 { 1.0 / *entry } else { 0.0 };
+        *entry = 1.0 / entry.max(LEAST_DIAGONAL);
     }
     diagonal
 }

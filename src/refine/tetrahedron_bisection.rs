@@ -87,8 +87,8 @@ fn marked_by_state(
     let tetrahedra = tetrahedra.ok_or(RefineError::State)?;
     let faces = Faces::new(mesh);
     let marked_edge = |side: &crate::mesh::Side| {
-        let MarkedTetrahedron { corners, marks } = &tetrahedra[side.tetrahedron as usize];
-        let [a, b] = marks.marked_edge(usize::from(side.opposite)).map(|corner| corners[corner]);
+        let MarkedTetrahedron { corners, marks } = &tetrahedra[side.tetrahedron()];
+        let [a, b] = marks.marked_edge(side.opposite()).map(|corner| corners[corner]);
         [a.min(b), a.max(b)]
     };
     let agree = (0..faces.count()).into_par_iter().all(|face| {

@@ -120,6 +120,10 @@ impl<'a> Splitter<'a> {
             Key::new(layout.rank(node), points[node] as u32)
         };
         match layout.cut {
+            // a tetrahedron keeps its corners' order: marks of refinement go by it
+            Cut::Solids(_) if is_tetrahedron(points) => {
+                tetrahedra.push(std::array::from_fn(|corner| points[corner] as u32));
+            }
             Cut::Solids(solids) => {
                 for faces in solids {
                     self.solid.clear();
@@ -144,6 +148,11 @@ impl<'a> Splitter<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether a solid of these points is a tetrahedron that has not collapsed.
+fn is_tetrahedron(points: &[i64]) -> bool {
+    points.len() == 4 && (1..4).all(|n| !points[..n].contains(&points[n]))
 }
 
 /// The triangles of a strip; those that only join two strips are none.

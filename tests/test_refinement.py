@@ -50,8 +50,8 @@ def same(one: pv.UnstructuredGrid, other: pv.UnstructuredGrid) -> None:
         ),
         (
             False,
-            {"monitor": "interpolation", "second": "pqi", "max_points": 70},
-            ["--monitor", "interpolation", "--second", "pqi", "--max-points", "70"],
+            {"monitor": "interpolation", "second": "linear", "max_points": 70},
+            ["--monitor", "interpolation", "--second", "linear", "--max-points", "70"],
         ),
         (
             True,

@@ -13,7 +13,7 @@ use crate::bernstein::{Sign, TetrahedronCubic};
 
 /// A face on the level, seen from one of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct FlatFace {
+pub struct FlatFace {
     /// The numbers of its corners, ascending.
     points: [u32; 3],
     /// Whether the whole cell lies on the level.
@@ -24,8 +24,8 @@ struct FlatFace {
     opposite: usize,
 }
 
-/// Adds all faces that lie on the level; `sides` segments along each of their edges.
-pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellation) {
+/// The faces that lie on the level and are drawn, each seen from one of its cells.
+pub fn flat_faces(cells: &[Cell]) -> Vec<FlatFace> {
     let mut faces: Vec<FlatFace> = Vec::new();
     for (place, cell) in cells.iter().enumerate() {
         let in_flat_cell = cell.cubic.coefficients == [0.0; 20];
@@ -35,12 +35,16 @@ pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellatio
         }
     }
     faces.sort_unstable();
-    for face in faces.chunk_by(|a, b| a.points == b.points) {
-        // sorted, so a cell that is not flat comes first; a face of flat cells alone is drawn
-        // on the boundary only
-        if !face[0].in_flat_cell || face.len() == 1 {
-            add_face(&cells[face[0].cell as usize], &face[0], sides, tessellation);
-        }
+    // sorted, so a cell that is not flat comes first; a face of flat cells alone is drawn on the
+    // boundary only
+    let of_face = faces.chunk_by(|a, b| a.points == b.points);
+    of_face.filter(|face| !face[0].in_flat_cell || face.len() == 1).map(|face| face[0]).collect()
+}
+
+/// Adds all faces that lie on the level; `sides` segments along each of their edges.
+pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellation) {
+    for face in flat_faces(cells) {
+        add_face(&cells[face.cell as usize], &face, sides, tessellation);
     }
 }
 

@@ -16,7 +16,7 @@ mod tessellation;
 mod uniform;
 mod walls;
 
-pub use budget::points_per_side_within;
+pub use budget::{MOST_POINTS, points_per_side_within};
 pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
 
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ use walls::Walls;
 /// How fine a surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fineness {
-    /// So many points on each side of a patch, two at least: the thesis' *nSide*.
+    /// So many points on each side of a patch, 2 to [`MOST_POINTS`]: the thesis' *nSide*.
     PointsPerSide(u32),
     /// No point of a triangle is farther from the surface than this, in the mesh's unit.
     Tolerance(f64),
@@ -71,7 +71,7 @@ pub fn contour_surface(
         surface.counts.divided += settled.divided;
         surface.counts.unresolved += settled.unresolved;
         let (points, tolerance) = match fineness {
-            Fineness::PointsPerSide(points) => (points.max(2), None),
+            Fineness::PointsPerSide(points) => (points.clamp(2, MOST_POINTS), None),
             Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
         };
         let patches = tessellations(&cells, &settled.pieces, points);

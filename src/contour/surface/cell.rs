@@ -32,7 +32,8 @@ pub struct Cell {
     rises: [f64; 4],
     /// Which faces, named by the corner opposite, lie on the level as a whole.
     pub flat: [bool; 4],
-    /// Whether the corners, in this order, are those of a right-handed tetrahedron.
+    /// Whether the corners, in this order, are those of a right-handed tetrahedron; of a sliver,
+    /// by its neighbours.
     pub right_handed: bool,
 }
 

@@ -5,6 +5,7 @@ mod cell;
 mod contour_surface;
 mod division;
 mod flat_faces;
+mod handedness;
 mod lattice;
 mod owner;
 mod patch;
@@ -99,7 +100,9 @@ fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64
     };
     // of known length, so that it is not put together of parts, which takes twice the memory
     let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
-    cells.into_iter().flatten().collect()
+    let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
+    handedness::settle_slivers(&mut cells);
+    cells
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {

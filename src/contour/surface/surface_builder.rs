@@ -37,7 +37,7 @@ pub fn add_level(
         builder.add(chunk, true);
     }
     builder.add(flat_faces, false);
-    builder.finish();
+    builder.finish(first_point);
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
 }
@@ -96,7 +96,8 @@ impl Builder<'_> {
     }
 
     /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
-    fn finish(mut self) {
+    /// `first_point` is the level's first.
+    fn finish(mut self, first_point: usize) {
         if let Some(tolerance) = self.level.tolerance {
             let mut refinement = Refinement {
                 cells: self.level.cells,
@@ -105,7 +106,7 @@ impl Builder<'_> {
                 facets: std::mem::take(&mut self.facets),
                 points: Vec::new(),
                 first_point: self.surface.points.len() as u32,
-                on_level: self.on_level,
+                on_level: std::mem::take(&mut self.on_level),
                 coarse: 0,
             };
             refinement.run();
@@ -121,9 +122,33 @@ impl Builder<'_> {
             self.facets.retain(|facet| !is_collapsed(facet));
             drop_doubles(&mut self.facets);
         }
+        self.drop_unused_points(first_point);
         let number = |facet: &Facet| self.level.cells[facet.cell as usize].number;
         self.surface.triangles.extend(self.facets.iter().map(|facet| facet.corners));
         self.surface.cells.extend(self.facets.iter().map(number));
+    }
+
+    /// Takes away points of the level that no triangle has, as those of patches in faces that are
+    /// drawn by themselves.
+    fn drop_unused_points(&mut self, first: usize) {
+        let mut is_used = vec![false; self.surface.points.len() - first];
+        for corner in self.facets.iter().flat_map(|facet| facet.corners) {
+            is_used[corner as usize - first] = true;
+        }
+        if !is_used.contains(&false) {
+            return;
+        }
+        let mut next = first;
+        let mut numbers = vec![0; is_used.len()];
+        for old in (0..is_used.len()).filter(|&old| is_used[old]) {
+            self.surface.points[next] = self.surface.points[first + old];
+            numbers[old] = next as u32;
+            next += 1;
+        }
+        self.surface.points.truncate(next);
+        for facet in &mut self.facets {
+            facet.corners = facet.corners.map(|corner| numbers[corner as usize - first]);
+        }
     }
 }
 

@@ -424,3 +424,80 @@ fn triangles_smaller_than_the_tolerance_stay_whole() {
         .map(|fineness| contour_surface(&f, &ranges, &[0.0], fineness).triangles.len());
     assert!(fine < 3 * coarsest, "{coarsest} {fine}");
 }
+
+/// A tri-cubic's surfaces at a level.
+fn surface_of(
+    mesh: &TetrahedronMesh,
+    data: impl Fn(&Vector) -> (f64, Vector),
+    level: f64,
+    fineness: Fineness,
+) -> ContourSurface {
+    let (values, gradients): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(data).unzip();
+    let f = Tricubic::new(mesh, Field { values: &values, gradients: &gradients });
+    contour_surface(&f, &CellRanges::of_tetrahedra(&f), &[level], fineness)
+}
+
+/// A mark for missing data makes what is on the far face of its cells rounding there, but not in
+/// their neighbours: what these draw up to the face goes on behind it.
+#[test]
+fn surfaces_are_closed_beside_a_huge_value() {
+    for (case, mark) in (0..16).zip([1e8, -1e12, 1e20, -1e30].into_iter().cycle()) {
+        let mut random = Random(100 + case);
+        let mesh = random_cube(&mut random, 8 + case as usize % 4);
+        let (mut values, gradients) = random_field(&mut random, mesh.points().len());
+        values[case as usize % 8] = mark;
+        let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+        let ranges = CellRanges::of_tetrahedra(&f);
+        let level = random.uniform(-0.9, 0.9);
+        let surface = contour_surface(&f, &ranges, &[level], Fineness::PointsPerSide(2));
+        check_even(&surface, &format!("case {case}, {mark:e}"));
+    }
+}
+
+/// Where a cubic is a triple zero all of it near the level is rounding.
+#[test]
+fn oblique_planes_of_triple_zeros_are_closed() {
+    for (direction, level) in [([0.0, 1.0, 1.0], 0.25), ([1.0, 0.0, 1.0], 0.7), ([1.0; 3], 1.3)] {
+        let direction = Vector::from(direction);
+        let data = |p: &Vector| {
+            let off = p.dot(&direction) - level;
+            (off.powi(3), 3.0 * off * off * direction)
+        };
+        for seed in 0..10 {
+            let mesh = shuffled(&mut Random(seed), &kuhn_grid(1));
+            let surface = surface_of(&mesh, data, 0.0, Fineness::PointsPerSide(2));
+            check_even(&surface, &format!("{direction} {seed}"));
+        }
+    }
+}
+
+/// A plane of symmetry between the cells, on the level, and another part of the surface that runs
+/// through it, and through its faces.
+#[test]
+fn a_sheet_through_faces_on_the_level_is_closed() {
+    let mesh = shuffled(&mut Random(9), &kuhn_grid(4));
+    let data = |p: &Vector| {
+        let (x, y) = (p.x - 0.5, p.y + 0.3 * p.z - 0.55);
+        (x * y, Vector::new(y, x, 0.3 * x))
+    };
+    for fineness in [Fineness::PointsPerSide(2), Fineness::PointsPerSide(3)] {
+        let surface = surface_of(&mesh, data, 0.0, fineness);
+        check_even(&surface, &format!("{fineness:?}"));
+        // around the line where they cross pieces are left at 1/16 of a cell
+        assert!((area(&surface) - 1.0 - 1.09_f64.sqrt()).abs() < 0.1, "{}", area(&surface));
+    }
+}
+
+/// The two sides of a ridge on the level are nothing but rounding: no triangle follows that.
+#[test]
+fn a_ridge_on_the_level_is_not_refined() {
+    let mesh = kuhn_grid(2);
+    let ridge = |p: &Vector| {
+        let off = p.x + 0.3 * p.y - 0.45;
+        (-off * off, -2.0 * off * Vector::new(1.0, 0.3, 0.0))
+    };
+    let [coarsest, fine] = [Fineness::PointsPerSide(2), Fineness::Tolerance(1e-3)]
+        .map(|fineness| surface_of(&mesh, ridge, -1e-16, fineness).triangles.len());
+    println!("{coarsest} {fine}");
+    assert!(fine < 3 * coarsest, "{coarsest} {fine}");
+}

@@ -25,7 +25,9 @@ pub fn points_per_side_within(
     let of_level = |&level: &f64| {
         let cells = cells_at(interpolant, ranges, level);
         let settled = settle(&cells, first_new_vertex(interpolant));
-        let of_patches: usize = settled.pieces.iter().map(triangles_of).sum();
+        let pieces = settled.pieces.iter();
+        let drawn = pieces.filter(|piece| !piece.is_collapsed(&cells[piece.cell as usize]));
+        let of_patches: usize = drawn.map(triangles_of).sum();
         of_patches + flat_faces(&cells).len()
     };
     let coarsest: usize = levels.iter().map(of_level).sum();

@@ -102,6 +102,7 @@ fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64
     let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
     let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
     handedness::settle_slivers(&mut cells);
+    flat_faces::leave_to_patches(&mut cells);
     cells
 }
 

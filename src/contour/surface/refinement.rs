@@ -159,12 +159,16 @@ impl Refinement<'_> {
     }
 
     /// Whether a point may be farther from the level set than the tolerance: the level is not
-    /// met within that along the steepest way to it.
+    /// met within that along the steepest way to it. A value that may be rounding is on the level:
+    /// where the cubic touches the level the sign need not change, and the slope is rounding too.
     ///
     /// In a sliver far thinner than the tolerance that way leads so far outside that the cubic is
     /// all rounding there, and in a cell without volume there is none: their neighbours decide.
     fn is_far(&self, cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> bool {
         let value = cell.cubic.value(at);
+        if value.abs() <= cell.noise {
+            return false;
+        }
         let slope = frame.gradient(&cell.cubic.barycentric_gradient(at));
         let way = direction(&slope) * (-value.signum() * self.tolerance);
         let step = frame.barycentric_direction(&way);

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::cell::Cell;
+use super::cell::{Cell, is_even};
 use super::contour_surface::{ContourSurface, SurfacePoint};
 use super::flat_faces::are_in_flat_face;
 use super::owner::Owner;
@@ -51,7 +51,7 @@ struct Builder<'a> {
     facets: Vec<Facet>,
     /// Points that are vertices on the level.
     on_level: HashSet<u32>,
-    /// Whether some points of patches fell together on the level.
+    /// Whether parts of patches fell together on the level.
     collapsed: bool,
 }
 
@@ -72,7 +72,8 @@ impl Builder<'_> {
                 let rays = triangle.map(|point| chunk.rays[point as usize]);
                 let at = points.map(|point| point.at);
                 let facet = Facet { corners, piece, rays, at, cell };
-                self.collapsed |= is_collapsed(&facet);
+                let is_on_level = corners.iter().all(|corner| self.on_level.contains(corner));
+                self.collapsed |= is_on_level || is_collapsed(&facet);
                 self.facets.push(facet);
             }
         }
@@ -175,13 +176,18 @@ fn drop_doubles(facets: &mut Vec<Facet>) {
         name.sort_unstable();
         name
     };
-    let mut named: Vec<([u32; 3], usize)> =
-        facets.iter().enumerate().map(|(place, facet)| (name(facet), place)).collect();
+    let mut named: Vec<([u32; 3], bool, usize)> = facets
+        .iter()
+        .enumerate()
+        .map(|(place, facet)| (name(facet), is_even(&facet.corners.map(|n| n as usize)), place))
+        .collect();
     named.sort_unstable();
     let mut dropped = vec![false; facets.len()];
     for same in named.chunk_by(|a, b| a.0 == b.0) {
-        let kept = same.len() % 2;
-        for (_, place) in &same[kept..] {
+        let odd = same.iter().filter(|(_, is_even, _)| !is_even).count();
+        // the odd ones come first
+        let pairs = odd.min(same.len() - odd);
+        for (_, _, place) in &same[odd - pairs..odd + pairs] {
             dropped[*place] = true;
         }
     }

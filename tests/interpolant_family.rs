@@ -2,7 +2,7 @@
 
 mod support;
 
-use nalgebra::{Const, DimMin, Rotation3};
+use nalgebra::Rotation3;
 use support::domains::Domain;
 use support::meshes::{Random, grid, random_square};
 use support::order::order;
@@ -70,9 +70,7 @@ fn check_reproduces<const CORNERS: usize, const N: usize>(
     operator: &str,
     points: CollocationPoints,
     close: f64,
-) where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
+) {
     let mut random = Random(5);
     let (each, total) = (i32::from(space.each), i32::from(space.total));
     let dimension = space.shape.dimension();
@@ -130,9 +128,7 @@ fn spaces_in_space_are_reproduced() {
 fn check_collocates<const CORNERS: usize, const N: usize>(
     space: Space<CORNERS, N>,
     mesh: &SimplexMesh<CORNERS>,
-) where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
+) {
     let pde = parse("uxx + (2 + y)*uyy + uzz + uxy/2 = x*y - z");
     let values: Vec<f64> = mesh.points().iter().map(|p| (3.0 * p.x).sin() + p.y * p.z).collect();
     let gradients = vec![Vector::new(1.0, 0.5, 0.2); values.len()];

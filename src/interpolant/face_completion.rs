@@ -52,31 +52,67 @@ const VALUE: f64 = 0.01;
 /// numbers determine those of least size.
 const ROUNDING: f64 = 1e-13;
 
+/// Points whose faces are treated at a time: what their tetrahedra say need not be kept for the
+/// whole mesh then. Most tetrahedra have all their faces in one block, none in more than two.
+const BLOCK: usize = 4096;
+
 /// For each face, what is to be added to the coefficient that reproduces quadratics; zero
 /// where the face's data are constant.
 pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<f64> {
-    let estimates: Vec<Estimate> = (0..mesh.tetrahedra().len())
-        .into_par_iter()
-        .map(|tetrahedron| estimate(mesh, field, faces, tetrahedron))
-        .collect();
     let constant = ConstantTriangles::new(mesh.points(), *field);
-    let mean = |face: usize| {
-        let side = faces.sides(face)[0];
-        let points = mesh.tetrahedra()[side.tetrahedron as usize];
-        let corners = TetrahedronCubic::FACE_VERTICES[side.opposite as usize];
-        let is_constant = constant.contain(&corners.map(|corner| points[corner]));
-        if is_constant { 0.0 } else { mean_of_sides(faces, &estimates, face) }
-    };
-    (0..faces.count()).into_par_iter().map(mean).collect()
+    let mut corrections = vec![0.0; faces.count()];
+    let mut listed = Listed::new(mesh);
+    let points = mesh.points().len();
+    for begin in (0..points).step_by(BLOCK) {
+        let block = faces.of_least_points(begin..points.min(begin + BLOCK));
+        listed.list(block.clone().flat_map(|face| faces.sides(face)));
+        let tetrahedra = listed.tetrahedra.par_iter();
+        let estimates: Vec<Estimate> = tetrahedra
+            .map(|&tetrahedron| estimate(mesh, field, faces, tetrahedron as usize))
+            .collect();
+        let of_side = |side: &Side| &estimates[listed.places[side.tetrahedron()] as usize];
+        corrections[block.clone()].par_iter_mut().zip(block).for_each(|(correction, face)| {
+            let sides = faces.sides(face);
+            if !constant.contain(&sides[0].face(mesh)) {
+                *correction = mean_of_sides(sides, of_side);
+            }
+        });
+    }
+    corrections
+}
+
+/// Some tetrahedra of a mesh, each with its place in the list.
+struct Listed {
+    tetrahedra: Vec<u32>,
+    /// Of those in the list; the others have any number.
+    places: Vec<u32>,
+}
+
+impl Listed {
+    fn new(mesh: &TetrahedronMesh) -> Self {
+        Self { tetrahedra: Vec::new(), places: vec![0; mesh.tetrahedra().len()] }
+    }
+
+    /// Lists those with these sides, instead of what was listed before.
+    fn list<'a>(&mut self, sides: impl Iterator<Item = &'a Side>) {
+        self.tetrahedra.clear();
+        for tetrahedron in sides.map(|side| side.tetrahedron()) {
+            let place = &mut self.places[tetrahedron];
+            if self.tetrahedra.get(*place as usize) != Some(&(tetrahedron as u32)) {
+                *place = self.tetrahedra.len() as u32;
+                self.tetrahedra.push(tetrahedron as u32);
+            }
+        }
+    }
 }
 
 /// The mean of what the tetrahedra at a face say; zero if none says anything.
-fn mean_of_sides(faces: &Faces, estimates: &[Estimate], face: usize) -> f64 {
+fn mean_of_sides<'a>(sides: &[Side], estimate: impl Fn(&Side) -> &'a Estimate) -> f64 {
     let (mut sum, mut weights) = (0.0, 0.0);
-    for side in faces.sides(face) {
-        let estimate = &estimates[side.tetrahedron as usize];
-        let weight = estimate.weights[side.opposite as usize];
-        sum += weight * estimate.corrections[side.opposite as usize];
+    for side in sides {
+        let estimate = estimate(side);
+        let weight = estimate.weights[side.opposite()];
+        sum += weight * estimate.corrections[side.opposite()];
         weights += weight;
     }
     if weights > 0.0 { sum / weights } else { 0.0 }
@@ -126,8 +162,8 @@ fn further_points(
 ) -> ArrayVec<u32, 12> {
     let mut points = ArrayVec::new();
     for neighbour in beyond.iter().flatten() {
-        for opposite in (0..4).filter(|&n| n != neighbour.opposite as usize) {
-            let side = faces.beyond(mesh, neighbour.tetrahedron as usize, opposite);
+        for opposite in (0..4).filter(|&n| n != neighbour.opposite()) {
+            let side = faces.beyond(mesh, neighbour.tetrahedron(), opposite);
             points.extend(side.map(|side| side.point(mesh)));
         }
     }

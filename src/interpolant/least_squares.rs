@@ -116,7 +116,7 @@ fn inverse_diagonal(faces: &Faces, equations: &[FaceEquations]) -> Vec<f64> {
 fn sum_over_sides(faces: &Faces, sides: &[[f64; 4]]) -> Vec<f64> {
     let sum = |face: usize| {
         let own = faces.sides(face).iter();
-        own.map(|side| sides[side.tetrahedron as usize][side.opposite as usize]).sum()
+        own.map(|side| sides[side.tetrahedron()][side.opposite()]).sum()
     };
     (0..faces.count()).into_par_iter().map(sum).collect()
 }

@@ -61,8 +61,7 @@ impl<'a> Tricubic<'a> {
     /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
     /// tetrahedron are stored.
     pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
-        let faces = Faces::new(mesh);
-        let coefficients = Some(completed(mesh, &field, &faces));
+        let coefficients = Some(completed(mesh, &field, &Faces::new(mesh)));
         let faces = FaceCoefficients { coefficients, singular: 0 };
         Self { mesh, field, faces: Cow::Owned(faces) }
     }
@@ -124,11 +123,12 @@ impl<'a> Tricubic<'a> {
 
 /// For each tetrahedron the coefficients amid its faces, from the neighbours.
 fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 4]> {
+    let corrections = face_corrections(mesh, field, faces);
     let coefficients = (0..mesh.tetrahedra().len()).into_par_iter().map(|tetrahedron| {
         let start = quadratic_precision(mesh, field, tetrahedron);
         TetrahedronCubic::FACES.map(|position| start.coefficients[position])
     });
-    corrected(coefficients.collect(), faces, &face_corrections(mesh, field, faces))
+    corrected(coefficients.collect(), faces, &corrections)
 }
 
 /// For each tetrahedron the coefficients amid its faces, and what is to be added to that of

@@ -1,61 +1,101 @@
 //! The faces of tetrahedra, each numbered once.
 
-use rayon::slice::ParallelSliceMut;
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 use super::simplex_mesh::TetrahedronMesh;
 
 /// The faces of a mesh of tetrahedra, and which tetrahedra they belong to.
 ///
 /// A face is its three points, whatever their order: tetrahedra with the same three
-/// points share it.
+/// points share it. Forty bytes a tetrahedron are kept, and hardly more is needed to find them.
 #[derive(Clone, Debug)]
 pub struct Faces {
     of_tetrahedra: Vec<[u32; 4]>,
     /// Where the sides of each face begin, and the end of the last.
-    offsets: Vec<usize>,
+    offsets: Vec<u32>,
+    /// The first face of each point, of those of which it is the least; and the end of the last.
+    of_points: Vec<u32>,
     sides: Vec<Side>,
 }
 
 /// One side of a face: the tetrahedron there, and its corner that is not on the face.
+///
+/// Both in one number: a mesh has at most 2³⁰ tetrahedra ([`super::MeshError::TooMany`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Side {
-    /// The tetrahedron.
-    pub tetrahedron: u32,
-    /// The corner opposite the face, 0 to 3.
-    pub opposite: u8,
-}
+pub struct Side(u32);
 
 impl Side {
+    fn new(tetrahedron: usize, opposite: usize) -> Self {
+        Self(4 * tetrahedron as u32 + opposite as u32)
+    }
+
+    /// The tetrahedron.
+    pub fn tetrahedron(self) -> usize {
+        self.0 as usize / 4
+    }
+
+    /// The corner opposite the face, 0 to 3.
+    pub fn opposite(self) -> usize {
+        self.0 as usize % 4
+    }
+
     /// The point of the tetrahedron that is not on the face.
-    pub fn point(&self, mesh: &TetrahedronMesh) -> u32 {
-        mesh.tetrahedra()[self.tetrahedron as usize][self.opposite as usize]
+    pub fn point(self, mesh: &TetrahedronMesh) -> u32 {
+        mesh.tetrahedra()[self.tetrahedron()][self.opposite()]
+    }
+
+    /// The points of the face, ascending.
+    pub fn face(self, mesh: &TetrahedronMesh) -> [u32; 3] {
+        let corners = mesh.tetrahedra()[self.tetrahedron()];
+        let mut points = [1, 2, 3].map(|step| corners[(self.opposite() + step) % 4]);
+        points.sort_unstable();
+        points
     }
 }
 
 impl Faces {
     /// The faces of `mesh`, in the order of their points.
     pub fn new(mesh: &TetrahedronMesh) -> Self {
-        let mut named: Vec<([u32; 3], Side)> = Vec::with_capacity(4 * mesh.tetrahedra().len());
-        for (tetrahedron, corners) in mesh.tetrahedra().iter().enumerate() {
-            for opposite in 0..4 {
-                let mut points = [1, 2, 3].map(|step| corners[(opposite + step) % 4]);
-                points.sort_unstable();
-                let side = Side { tetrahedron: tetrahedron as u32, opposite: opposite as u8 };
-                named.push((points, side));
-            }
+        let (mut sides, ends) = by_least_point(mesh);
+        let mut blocks = Vec::with_capacity(ends.len());
+        let mut rest = &mut sides[..];
+        for (point, &end) in ends.iter().enumerate() {
+            let begin = if point == 0 { 0 } else { ends[point - 1] };
+            let (block, after) = rest.split_at_mut((end - begin) as usize);
+            blocks.push(block);
+            rest = after;
         }
-        named.par_sort_unstable();
+        blocks.into_par_iter().for_each(|block| {
+            block.sort_unstable_by_key(|side| (side.face(mesh), *side));
+        });
+        Self::numbered(mesh, sides, &ends)
+    }
+
+    /// Faces from sides in the order of their faces, those of each least point up to an end.
+    fn numbered(mesh: &TetrahedronMesh, sides: Vec<Side>, ends: &[u32]) -> Self {
         let mut of_tetrahedra = vec![[0; 4]; mesh.tetrahedra().len()];
-        let mut offsets = vec![0];
-        for group in named.chunk_by(|left, right| left.0 == right.0) {
-            let face = offsets.len() - 1;
-            for (_, side) in group {
-                of_tetrahedra[side.tetrahedron as usize][side.opposite as usize] = face as u32;
+        let mut offsets = Vec::with_capacity(sides.len() / 2 + 1);
+        let mut of_points = Vec::with_capacity(ends.len() + 1);
+        let mut begin = 0;
+        for &end in ends {
+            of_points.push(offsets.len() as u32);
+            let mut before = None;
+            for place in begin..end {
+                let side = sides[place as usize];
+                let face = side.face(mesh);
+                if before != Some(face) {
+                    offsets.push(place);
+                    before = Some(face);
+                }
+                of_tetrahedra[side.tetrahedron()][side.opposite()] = offsets.len() as u32 - 1;
             }
-            offsets.push(offsets[face] + group.len());
+            begin = end;
         }
-        let sides = named.into_iter().map(|(_, side)| side).collect();
-        Self { of_tetrahedra, offsets, sides }
+        of_points.push(offsets.len() as u32);
+        offsets.push(begin);
+        Self { of_tetrahedra, offsets, of_points, sides }
     }
 
     /// How many faces there are.
@@ -70,7 +110,13 @@ impl Faces {
 
     /// The sides of a face, ascending: two inside a mesh, one on its boundary.
     pub fn sides(&self, face: usize) -> &[Side] {
-        &self.sides[self.offsets[face]..self.offsets[face + 1]]
+        &self.sides[self.offsets[face] as usize..self.offsets[face + 1] as usize]
+    }
+
+    /// The faces of which these points are the least. Their tetrahedra stand close together if
+    /// the points do.
+    pub fn of_least_points(&self, points: Range<usize>) -> Range<usize> {
+        self.of_points[points.start] as usize..self.of_points[points.end] as usize
     }
 
     /// What lies beyond the face opposite a corner of a tetrahedron of `mesh`: the one other
@@ -84,10 +130,35 @@ impl Faces {
     ) -> Option<Side> {
         let sides = self.sides(self.of_tetrahedra[tetrahedron][opposite] as usize);
         let [first, second] = sides else { return None };
-        let other = if first.tetrahedron as usize == tetrahedron { second } else { first };
+        let other = if first.tetrahedron() == tetrahedron { second } else { first };
         let is_new = other.point(mesh) != mesh.tetrahedra()[tetrahedron][opposite];
         is_new.then_some(*other)
     }
+}
+
+/// All sides of faces, in the order of the faces' least points, and where those of each point
+/// end: a counting sort.
+fn by_least_point(mesh: &TetrahedronMesh) -> (Vec<Side>, Vec<u32>) {
+    let all = || (0..mesh.tetrahedra().len()).flat_map(|t| [0, 1, 2, 3].map(|n| Side::new(t, n)));
+    let least = |side: Side| {
+        let corners = mesh.tetrahedra()[side.tetrahedron()];
+        let others = [1, 2, 3].map(|step| corners[(side.opposite() + step) % 4]);
+        others[0].min(others[1]).min(others[2]) as usize
+    };
+    let mut ends = vec![0_u32; mesh.points().len()];
+    all().for_each(|side| ends[least(side)] += 1);
+    let mut sum = 0;
+    for end in &mut ends {
+        (*end, sum) = (sum, sum + *end);
+    }
+    // where each begins becomes where it ends
+    let mut sides = vec![Side(0); sum as usize];
+    for side in all() {
+        let end = &mut ends[least(side)];
+        sides[*end as usize] = side;
+        *end += 1;
+    }
+    (sides, ends)
 }
 
 #[cfg(test)]
@@ -103,7 +174,7 @@ mod tests {
         assert_eq!(faces.count(), 7);
         let shared = faces.of_tetrahedra()[0][0];
         assert_eq!(faces.of_tetrahedra()[1][1], shared);
-        let sides = [Side { tetrahedron: 0, opposite: 0 }, Side { tetrahedron: 1, opposite: 1 }];
+        let sides = [Side::new(0, 0), Side::new(1, 1)];
         assert_eq!(faces.sides(shared as usize), sides);
         let alone = (0..7).filter(|&face| faces.sides(face).len() == 1).count();
         assert_eq!(alone, 6);
@@ -111,6 +182,10 @@ mod tests {
         assert_eq!(faces.beyond(&mesh, 1, 1), Some(sides[0]));
         assert_eq!(faces.beyond(&mesh, 0, 1), None);
         assert_eq!(sides.map(|side| side.point(&mesh)), [0, 4]);
+        assert_eq!(sides.map(|side| side.face(&mesh)), [[1, 2, 3]; 2]);
+        // 012, 013, 023; 123, 124, 134; 234
+        let of_point = |point| faces.of_least_points(point..point + 1);
+        assert_eq!([0, 1, 2, 3].map(of_point), [0..3, 3..6, 6..7, 7..7]);
     }
 
     #[test]

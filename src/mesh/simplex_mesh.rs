@@ -23,6 +23,9 @@ pub type TriangleMesh<'a> = SimplexMesh<'a, 3>;
 /// Points in space and the tetrahedra between them.
 pub type TetrahedronMesh<'a> = SimplexMesh<'a, 4>;
 
+/// The most simplices: the sides of four times as many are numbered, in 32 bits.
+const MOST: usize = (1 << 30) - 1;
+
 /// Why points and simplices do not make a mesh.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum MeshError {
@@ -36,13 +39,20 @@ pub enum MeshError {
         /// How many points there are.
         points: usize,
     },
+    /// There are more simplices than their sides can have numbers.
+    #[error("{simplices} simplices are more than the {MOST} that can be numbered")]
+    TooMany {
+        /// How many there are.
+        simplices: usize,
+    },
 }
 
 impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     /// A mesh of `points` and `simplices` (the indices of their corners).
     ///
     /// # Errors
-    /// [`MeshError::PointOutOfRange`] if a simplex names a point that is not there.
+    /// [`MeshError::PointOutOfRange`] if a simplex names a point that is not there, and
+    /// [`MeshError::TooMany`] beyond a billion simplices.
     pub fn new(points: Vec<Vector>, simplices: Vec<[u32; CORNERS]>) -> Result<Self, MeshError> {
         Self { points: points.into(), simplices: simplices.into() }.checked()
     }
@@ -56,6 +66,9 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     }
 
     fn checked(self) -> Result<Self, MeshError> {
+        if self.simplices.len() > MOST {
+            return Err(MeshError::TooMany { simplices: self.simplices.len() });
+        }
         let points = self.points.len();
         let beyond = |corners: &[u32; CORNERS]| {
             corners.iter().copied().find(|&point| point as usize >= points)

@@ -151,10 +151,7 @@ impl Member {
         field: Field<'a>,
         pde: &Pde,
         way: Way,
-    ) -> (Box<dyn Pieces<3> + 'a>, usize)
-    where
-        nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
-    {
+    ) -> (Box<dyn Pieces<3> + 'a>, usize) {
         let points = match (self, way) {
             (Self::Adei, _) => CollocationPoints::Searched { seed: 1 },
             (_, Way::Thesis) => CollocationPoints::Random { seed: 1 },

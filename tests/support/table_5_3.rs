@@ -4,7 +4,6 @@
 //! the corners of the unit cube, and the error is that at 1000 regular points: here the
 //! centres of 10 by 10 by 10 cubes.
 
-use nalgebra::{Const, DimMin};
 use vtu2contour::field::Field;
 use vtu2contour::interpolant::family::spaces::{P2, P2_HAT, P3};
 use vtu2contour::interpolant::family::{Dei, DeiOptions, Space};
@@ -163,10 +162,7 @@ impl Member {
             field: Field<'a>,
             equation: &Equation,
             options: &DeiOptions,
-        ) -> Box<dyn Pieces<4> + 'a>
-        where
-            Const<N>: DimMin<Const<N>, Output = Const<N>>,
-        {
+        ) -> Box<dyn Pieces<4> + 'a> {
             Box::new(Dei::new(space, mesh, field, equation, options))
         }
         match self {

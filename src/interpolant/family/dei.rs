@@ -1,6 +1,5 @@
 //! The interpolant of any space of the family.
 
-use nalgebra::{Const, DimMin};
 use rayon::prelude::*;
 
 use super::cell::Cell;
@@ -53,10 +52,7 @@ impl Default for DeiOptions {
 /// Cells that one thread takes at a time: whole batches of the PDE.
 const CHUNK: usize = LANES;
 
-impl<'a, const CORNERS: usize, const N: usize> Dei<'a, CORNERS, N>
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
+impl<'a, const CORNERS: usize, const N: usize> Dei<'a, CORNERS, N> {
     /// The interpolant. `field` has one value and one gradient for each point of `mesh`,
     /// whose cells are of the space's shape: the four corners of a rectangle are in turn.
     pub fn new(
@@ -159,10 +155,7 @@ struct Sought<const CORNERS: usize, const N: usize> {
     best: Option<Solution<N>>,
 }
 
-impl<const CORNERS: usize, const N: usize> Search<'_, CORNERS, N>
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
+impl<const CORNERS: usize, const N: usize> Search<'_, CORNERS, N> {
     /// The coefficients on each cell, and whether they are those of `Û`.
     fn of_chunk(&self, cells: &[usize]) -> Vec<([f64; N], bool)> {
         let mut sought: Vec<Option<Sought<CORNERS, N>>> =

@@ -4,8 +4,9 @@
 //! the collocation points (eq. 1.10). What is solved for is the difference to the plane
 //! with the mean value and gradient: so a constant or a slope, however large, changes
 //! neither the rounding nor the size of the coefficients.
-
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+//!
+//! Rows are eliminated as they come, so what is given of a cell is eliminated once, however
+//! often its collocation points are chosen anew.
 
 use super::cell::{Cell, dot};
 use super::monomials::{FIRST, Monomials, Powers, both};
@@ -23,14 +24,25 @@ pub(super) struct Condition<const CORNERS: usize> {
     pub right_hand_side: f64,
 }
 
-/// The system of a cell.
+/// The system of a cell, its first rows eliminated.
 #[derive(Clone, Debug)]
 pub(super) struct System<const N: usize> {
-    matrix: SMatrix<f64, N, N>,
-    right: SVector<f64, N>,
+    /// Each without the pivots of the rows before it.
+    rows: [Row<N>; N],
+    count: usize,
     /// Of the plane: the coefficients of 1, s, t, v.
     plane: [f64; 4],
-    rows: usize,
+    /// The greatest right-hand side.
+    data: f64,
+}
+
+/// An equation.
+#[derive(Clone, Copy, Debug)]
+struct Row<const N: usize> {
+    factors: [f64; N],
+    right: f64,
+    /// The column of the greatest factor.
+    pivot: usize,
 }
 
 /// A system whose least pivot is below this part of the greatest is singular as far as
@@ -53,16 +65,17 @@ impl<const N: usize> System<N> {
     ) -> Self {
         let (constant, slopes) = cell.plane();
         let plane = [constant, slopes[0], slopes[1], slopes[2]];
-        let mut system = Self { matrix: SMatrix::zeros(), right: SVector::zeros(), plane, rows: 0 };
+        let none = Row { factors: [0.0; N], right: 0.0, pivot: 0 };
+        let mut system = Self { rows: [none; N], count: 0, plane, data: 0.0 };
         for corner in 0..CORNERS {
             let at = cell.bounds.coordinates(&cell.corners[corner]);
             let powers = Powers::new(&at);
             let value = cell.values[corner] - constant - dot(&slopes, &at);
-            system.push(&monomials.derivatives(&powers, [0; 3]), value);
+            system.push(monomials.derivatives(&powers, [0; 3]), value);
             let given = cell.bounds.slopes(&cell.gradients[corner]);
             for axis in 0..space.shape.dimension() {
                 let row = monomials.derivatives(&powers, FIRST[axis]);
-                system.push(&row, given[axis] - slopes[axis]);
+                system.push(row, given[axis] - slopes[axis]);
             }
         }
         system
@@ -90,33 +103,46 @@ impl<const N: usize> System<N> {
                 }
             }
         }
-        self.push(&row, scale * condition.right_hand_side);
+        self.push(row, scale * condition.right_hand_side);
     }
 
-    fn push(&mut self, row: &[f64; N], right: f64) {
-        if self.rows < N {
-            for (column, factor) in row.iter().enumerate() {
-                self.matrix[(self.rows, column)] = *factor;
-            }
-            self.right[self.rows] = right;
-            self.rows += 1;
+    /// Adds a row, eliminates the pivots of those before it, and pivots on what is greatest then.
+    fn push(&mut self, mut factors: [f64; N], mut right: f64) {
+        self.data = self.data.max(right.abs());
+        for row in &self.rows[..self.count] {
+            let share = factors[row.pivot] / row.factors[row.pivot];
+            factors
+                .iter_mut()
+                .zip(&row.factors)
+                .for_each(|(factor, other)| *factor -= share * other);
+            factors[row.pivot] = 0.0;
+            right -= share * row.right;
         }
+        let mut pivot = 0;
+        for column in 1..N {
+            if factors[column].abs() > factors[pivot].abs() {
+                pivot = column;
+            }
+        }
+        self.rows[self.count] = Row { factors, right, pivot };
+        self.count += 1;
     }
 
     /// The solution; none if the system is singular or not finite.
-    pub fn solve(self, monomials: &Monomials<N>) -> Option<Solution<N>>
-    where
-        Const<N>: DimMin<Const<N>, Output = Const<N>>,
-    {
-        let data = self.right.amax();
-        let factors = self.matrix.lu();
-        let pivots = factors.u().diagonal().abs();
-        if pivots.min() <= SINGULAR * pivots.max() {
+    pub fn solve(&self, monomials: &Monomials<N>) -> Option<Solution<N>> {
+        let pivots = self.rows.iter().map(|row| row.factors[row.pivot].abs());
+        let least = pivots.clone().fold(f64::INFINITY, f64::min);
+        if self.count < N || least <= SINGULAR * pivots.fold(0.0, f64::max) {
             return None;
         }
-        let solution = factors.solve(&self.right)?;
-        let size = if data > 0.0 { solution.amax() / data } else { 0.0 };
-        let mut coefficients: [f64; N] = solution.into();
+        let mut coefficients = [0.0; N];
+        for row in self.rows.iter().rev() {
+            // this one is still zero
+            let known: f64 = row.factors.iter().zip(&coefficients).map(|(a, b)| a * b).sum();
+            coefficients[row.pivot] = (row.right - known) / row.factors[row.pivot];
+        }
+        let size = coefficients.iter().fold(0.0, |size: f64, number| size.max(number.abs()));
+        let size = if self.data > 0.0 { size / self.data } else { 0.0 };
         for (powers, term) in [[0; 3]].iter().chain(&FIRST).zip(self.plane) {
             monomials.add(&mut coefficients, *powers, term);
         }

@@ -1,13 +1,13 @@
 //! How long interpolants take: `cargo bench --bench interpolants`.
 //!
-//! A million triangles; a PDE of twenty operations; the spaces of the family.
+//! A million triangles; a PDE of twenty operations; recovery; the spaces of the family.
 
 #![allow(missing_docs)] // the macros of criterion make functions without
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use vtu2contour::field::Field;
+use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::family::spaces::{DEI, PCI};
 use vtu2contour::interpolant::family::{Dei, DeiOptions};
 use vtu2contour::interpolant::{Equation, Pci, Predictor};
@@ -46,6 +46,11 @@ fn interpolants(criterion: &mut Criterion) {
     group.bench_function("PCI, PDE of 20 operations", |bench| {
         bench.iter(|| black_box(Pci::with_pde(&mesh, field, &equation)));
     });
+    for degree in [RecoveryDegree::Two, RecoveryDegree::Three] {
+        group.bench_function(format!("recovered gradients, degree {degree:?}"), |bench| {
+            bench.iter(|| black_box(recover_gradients(&mesh, &values, degree)));
+        });
+    }
     group.bench_function("point locator", |bench| {
         bench.iter(|| black_box(PointLocator::new(&mesh)));
     });

@@ -190,7 +190,7 @@ fn warnings_where_users_of_vtk_expect_output() {
     bench.write_grid(vec![u()], vec![]);
     // its recovered gradients are rounded, and so is the range
     let said = bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5,-1,1.5"]);
-    assert!(said.contains("no line at -1.0, 5.0: outside the range "), "{said}");
+    assert!(said.contains("no contour at -1.0, 5.0: outside the range "), "{said}");
     assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 1);
     assert_eq!(bench.succeed(&["in.vtu", "-o", "out.vtp", "-v", "5", "-q"]), "");
     assert_eq!(read_lines(&bench.path("out.vtp")).lines.len(), 0);

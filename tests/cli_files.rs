@@ -326,7 +326,7 @@ fn steps_without_contours_are_told_once() {
     assert_eq!(said.lines().count(), 2, "{said}");
     let first = "2 of 4 files, first 'run/run_1.vtu' (time 0.25): nothing to contour";
     assert!(said.contains(first), "{said}");
-    assert!(said.contains("no line at 100.0: outside the range 0.0 to 8.0 of 'u'"), "{said}");
+    assert!(said.contains("no contour at 100.0: outside the range 0.0 to 8.0 of 'u'"), "{said}");
     let list = PvdFile::open(bench.path("out.pvd")).unwrap();
     let times: Vec<_> = list.entries().iter().map(|entry| entry.time).collect();
     assert_eq!(times, [Some(0.0), Some(0.75)]);

@@ -10,7 +10,9 @@ use support::meshes::Random;
 use support::problems_3d::PROBLEMS;
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::contour::CellRanges;
-use vtu2contour::contour::surface::{ContourSurface, Fineness, contour_surface};
+use vtu2contour::contour::surface::{
+    ContourSurface, Fineness, contour_surface, points_per_side_within,
+};
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{TetrahedronCubics, Tricubic};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
@@ -22,8 +24,11 @@ fn on_boundary(a: &Vector, b: &Vector) -> bool {
 }
 
 /// Every edge belongs to two triangles, which run along it in opposite directions, or lies
-/// on the boundary; no triangle is degenerate or doubled.
+/// on the boundary; no triangle is degenerate or doubled, and no point without a triangle.
 fn check_closed(surface: &ContourSurface, name: &str) {
+    let used: std::collections::HashSet<u32> =
+        surface.triangles.iter().flatten().copied().collect();
+    assert_eq!(used.len(), surface.points.len(), "{name}: points");
     let mut edges: HashMap<(u32, u32), usize> = HashMap::new();
     for triangle in &surface.triangles {
         let [a, b, c] = triangle.map(|n| surface.points[n as usize].position);
@@ -316,4 +321,183 @@ fn a_tolerance_holds_at_points_on_the_level() {
             assert!(distance <= 1.02 * tolerance, "{distance} at {place}");
         }
     }
+}
+
+/// Two boxes, one upon the other, with or without their common face cut along different
+/// diagonals; a cell whose corners are those of that face lies between them then. `lift` is how
+/// far one of these corners is out of their plane.
+fn boxes(with_flat_cell: bool, lift: f64) -> TetrahedronMesh<'static> {
+    let below = kuhn_grid(1);
+    let mut points: Vec<Vector> = below.points().to_vec();
+    points.extend_from_within(0..4);
+    points[8..].iter_mut().for_each(|point| point.z = 2.0);
+    points.iter_mut().for_each(|point| point.z *= 0.5);
+    points[4].z += lift;
+    // the corners of the upper box, mirrored so that its lower face is cut the other way
+    let upper =
+        if with_flat_cell { [5, 4, 7, 6, 9, 8, 11, 10] } else { [4, 5, 6, 7, 8, 9, 10, 11] };
+    let mut tetrahedra = below.tetrahedra().to_vec();
+    let above = below.tetrahedra().iter().map(|corners| corners.map(|n| upper[n as usize]));
+    tetrahedra.extend(above.collect::<Vec<_>>());
+    tetrahedra.extend(with_flat_cell.then_some([4, 5, 6, 7]));
+    TetrahedronMesh::new(points, tetrahedra).unwrap()
+}
+
+/// Delaunay meshes of regular points are full of cells without volume, or with one that is
+/// rounding, whose corners stand in any order.
+#[test]
+fn cells_without_volume_are_closed_oriented_and_cheap() {
+    let value = |p: &Vector| (2.0 * p.x).sin() + (p.y + 3.0 * p.z).cos();
+    let gradient = |p: &Vector| {
+        let down = -(p.y + 3.0 * p.z).sin();
+        Vector::new(2.0 * (2.0 * p.x).cos(), down, 3.0 * down)
+    };
+    let mut random = Random(8);
+    for (lift, fineness) in [0.0, 1e-14, -1e-14, 1e-10]
+        .into_iter()
+        .flat_map(|lift| [Fineness::PointsPerSide(3), Fineness::Tolerance(1e-3)].map(|f| (lift, f)))
+    {
+        let mut triangles = Vec::new();
+        for with_flat_cell in [false, true, true, true, true] {
+            let mesh = shuffled(&mut random, &boxes(with_flat_cell, lift));
+            let values: Vec<f64> = mesh.points().iter().map(value).collect();
+            let gradients: Vec<Vector> = mesh.points().iter().map(gradient).collect();
+            let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+            let ranges = CellRanges::of_tetrahedra(&f);
+            let surface = contour_surface(&f, &ranges, &[0.5, 0.9], fineness);
+            check_closed(&surface, &format!("{with_flat_cell} {lift} {fineness:?}"));
+            assert_eq!((surface.counts.unresolved, surface.counts.coarse), (0, 0));
+            triangles.push(surface.triangles.len());
+        }
+        assert!(triangles.iter().all(|&count| count < 2 * triangles[0]), "{triangles:?}");
+    }
+}
+
+/// Patches that end in faces on the level lie there as a whole: neither their triangles nor their
+/// points are kept beside those of the faces.
+#[test]
+fn a_plane_of_triple_zeros_is_drawn_once() {
+    let mesh = kuhn_grid(4);
+    let values: Vec<f64> = mesh.points().iter().map(|p| (p.x - 0.5).powi(3)).collect();
+    let slope = |p: &Vector| 3.0 * (p.x - 0.5).powi(2) * Vector::x();
+    let gradients: Vec<Vector> = mesh.points().iter().map(slope).collect();
+    let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+    let ranges = CellRanges::of_tetrahedra(&f);
+    for fineness in
+        [Fineness::PointsPerSide(2), Fineness::PointsPerSide(4), Fineness::Tolerance(1e-3)]
+    {
+        let surface = contour_surface(&f, &ranges, &[0.0], fineness);
+        check_closed(&surface, &format!("{fineness:?}"));
+        assert!((area(&surface) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A face on the level is drawn although no patch is: it counts.
+#[test]
+fn faces_on_the_level_are_within_the_number_of_triangles() {
+    let mesh = kuhn_grid(3);
+    let values: Vec<f64> = mesh.points().iter().map(|p| p.x).collect();
+    let gradients = vec![Vector::x(); values.len()];
+    let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+    let ranges = CellRanges::of_tetrahedra(&f);
+    // on the boundary, between cells on both sides of it, and through cells
+    for (level, coarsest) in [(0.0, 18), (1.0 / 3.0, 18), (0.5, 72)] {
+        let points = points_per_side_within(&f, &ranges, &[level], 1000);
+        let surface = contour_surface(&f, &ranges, &[level], Fineness::PointsPerSide(points));
+        let most = (2..).map(|n: usize| coarsest * (n - 1).pow(2)).take_while(|&n| n <= 1000);
+        assert_eq!(surface.triangles.len(), most.last().unwrap(), "{level}");
+    }
+}
+
+/// Around a line of the level on which the slope is zero pieces are far smaller than the
+/// tolerance, and slopes are rounding: nothing is gained by triangles that are smaller still.
+#[test]
+fn triangles_smaller_than_the_tolerance_stay_whole() {
+    let mesh = kuhn_grid(1);
+    let (a, b) = (|p: &Vector| p.x - 0.45, |p: &Vector| p.y - 0.4);
+    let values: Vec<f64> = mesh.points().iter().map(|p| a(p) * a(p) * b(p)).collect();
+    let gradient = |p: &Vector| Vector::new(2.0 * a(p) * b(p), a(p) * a(p), 0.0);
+    let gradients: Vec<Vector> = mesh.points().iter().map(gradient).collect();
+    let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+    let ranges = CellRanges::of_tetrahedra(&f);
+    let [coarsest, fine] = [Fineness::PointsPerSide(2), Fineness::Tolerance(1e-2)]
+        .map(|fineness| contour_surface(&f, &ranges, &[0.0], fineness).triangles.len());
+    assert!(fine < 3 * coarsest, "{coarsest} {fine}");
+}
+
+/// A tri-cubic's surfaces at a level.
+fn surface_of(
+    mesh: &TetrahedronMesh,
+    data: impl Fn(&Vector) -> (f64, Vector),
+    level: f64,
+    fineness: Fineness,
+) -> ContourSurface {
+    let (values, gradients): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(data).unzip();
+    let f = Tricubic::new(mesh, Field { values: &values, gradients: &gradients });
+    contour_surface(&f, &CellRanges::of_tetrahedra(&f), &[level], fineness)
+}
+
+/// A mark for missing data makes what is on the far face of its cells rounding there, but not in
+/// their neighbours: what these draw up to the face goes on behind it.
+#[test]
+fn surfaces_are_closed_beside_a_huge_value() {
+    for (case, mark) in (0..16).zip([1e8, -1e12, 1e20, -1e30].into_iter().cycle()) {
+        let mut random = Random(100 + case);
+        let mesh = random_cube(&mut random, 8 + case as usize % 4);
+        let (mut values, gradients) = random_field(&mut random, mesh.points().len());
+        values[case as usize % 8] = mark;
+        let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+        let ranges = CellRanges::of_tetrahedra(&f);
+        let level = random.uniform(-0.9, 0.9);
+        let surface = contour_surface(&f, &ranges, &[level], Fineness::PointsPerSide(2));
+        check_even(&surface, &format!("case {case}, {mark:e}"));
+    }
+}
+
+/// Where a cubic is a triple zero all of it near the level is rounding.
+#[test]
+fn oblique_planes_of_triple_zeros_are_closed() {
+    for (direction, level) in [([0.0, 1.0, 1.0], 0.25), ([1.0, 0.0, 1.0], 0.7), ([1.0; 3], 1.3)] {
+        let direction = Vector::from(direction);
+        let data = |p: &Vector| {
+            let off = p.dot(&direction) - level;
+            (off.powi(3), 3.0 * off * off * direction)
+        };
+        for seed in 0..10 {
+            let mesh = shuffled(&mut Random(seed), &kuhn_grid(1));
+            let surface = surface_of(&mesh, data, 0.0, Fineness::PointsPerSide(2));
+            check_even(&surface, &format!("{direction} {seed}"));
+        }
+    }
+}
+
+/// A plane of symmetry between the cells, on the level, and another part of the surface that runs
+/// through it, and through its faces.
+#[test]
+fn a_sheet_through_faces_on_the_level_is_closed() {
+    let mesh = shuffled(&mut Random(9), &kuhn_grid(4));
+    let data = |p: &Vector| {
+        let (x, y) = (p.x - 0.5, p.y + 0.3 * p.z - 0.55);
+        (x * y, Vector::new(y, x, 0.3 * x))
+    };
+    for fineness in [Fineness::PointsPerSide(2), Fineness::PointsPerSide(3)] {
+        let surface = surface_of(&mesh, data, 0.0, fineness);
+        check_even(&surface, &format!("{fineness:?}"));
+        // around the line where they cross pieces are left at 1/16 of a cell
+        assert!((area(&surface) - 1.0 - 1.09_f64.sqrt()).abs() < 0.1, "{}", area(&surface));
+    }
+}
+
+/// The two sides of a ridge on the level are nothing but rounding: no triangle follows that.
+#[test]
+fn a_ridge_on_the_level_is_not_refined() {
+    let mesh = kuhn_grid(2);
+    let ridge = |p: &Vector| {
+        let off = p.x + 0.3 * p.y - 0.45;
+        (-off * off, -2.0 * off * Vector::new(1.0, 0.3, 0.0))
+    };
+    let [coarsest, fine] = [Fineness::PointsPerSide(2), Fineness::Tolerance(1e-3)]
+        .map(|fineness| surface_of(&mesh, ridge, -1e-16, fineness).triangles.len());
+    println!("{coarsest} {fine}");
+    assert!(fine < 3 * coarsest, "{coarsest} {fine}");
 }

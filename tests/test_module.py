@@ -213,7 +213,7 @@ def test_errors_say_what_to_do():
 
 def test_levels_outside_are_told():
     mesh = pv.read(SAMPLES / "islands.vtu")
-    with pytest.warns(UserWarning, match="no line at 99.0: outside the range") as told:
+    with pytest.warns(UserWarning, match="no contour at 99.0: outside the range") as told:
         assert vc.contour(mesh, [99.0]).n_cells == 0
     assert told[0].filename == __file__
 

@@ -70,6 +70,27 @@ const fn parents<const COUNT: usize>(degree: usize) -> [[usize; 4]; COUNT] {
     all
 }
 
+/// The position of the coefficient that is `power` times at a vertex, the rest at another.
+const fn on_edge(vertex: usize, power: usize, other: usize) -> usize {
+    let mut exponents = [0; 4];
+    exponents[vertex] += power;
+    exponents[other] += 3 - power;
+    position(exponents)
+}
+
+/// The positions of the coefficients on the line from each vertex to each, by their power
+/// at the second.
+static EDGES: [[[usize; 4]; 4]; 4] = {
+    let mut all = [[[0; 4]; 4]; 4];
+    let mut n = 0;
+    while n < 64 {
+        let (from, to, power) = (n / 16, n / 4 % 4, n % 4);
+        all[from][to][power] = on_edge(to, power, from);
+        n += 1;
+    }
+    all
+};
+
 const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
 const TO_LINEAR: [[usize; 4]; 4] = parents(2);
 
@@ -99,14 +120,15 @@ impl TetrahedronCubic {
         toward: impl Fn(usize, usize) -> f64,
         face: [f64; 4],
     ) -> Self {
-        Self::from_coefficients(|exponents| {
-            let with = |wanted: usize| exponents.iter().position(|&e| e == wanted);
-            match (with(3), with(2), with(1)) {
-                (Some(i), _, _) => vertex[i],
-                (_, Some(i), Some(j)) => toward(i, j),
-                _ => face[with(0).unwrap_or_default()],
+        let mut cubic = Self::new([0.0; 20]);
+        for from in 0..4 {
+            cubic.coefficients[EDGES[from][from][0]] = vertex[from];
+            cubic.coefficients[Self::FACES[from]] = face[from];
+            for to in (0..4).filter(|&to| to != from) {
+                cubic.coefficients[EDGES[from][to][1]] = toward(from, to);
             }
-        })
+        }
+        cubic
     }
 
     /// The cubic with coefficients given by a function of their exponents.
@@ -133,11 +155,7 @@ impl TetrahedronCubic {
 
     /// The values at the four vertices, which are coefficients too.
     pub fn vertices(&self) -> [f64; 4] {
-        [0, 1, 2, 3].map(|vertex| {
-            let mut exponents = [0; 4];
-            exponents[vertex] = 3;
-            self.coefficient(exponents)
-        })
+        [0, 1, 2, 3].map(|vertex| self.coefficients[EDGES[vertex][vertex][0]])
     }
 
     /// The value at `at`, by de Casteljau's algorithm.
@@ -171,13 +189,7 @@ impl TetrahedronCubic {
 
     /// The cubic on the edge from one vertex to another.
     pub fn edge(&self, [from, to]: [usize; 2]) -> SegmentCubic {
-        let coefficient = |n: usize| {
-            let mut exponents = [0; 4];
-            exponents[from] += 3 - n;
-            exponents[to] += n;
-            self.coefficient(exponents)
-        };
-        SegmentCubic::new([0, 1, 2, 3].map(coefficient))
+        SegmentCubic::new(EDGES[from][to].map(|position| self.coefficients[position]))
     }
 
     /// The cubic on the face with the given three vertices, in their order.
@@ -236,20 +248,23 @@ fn arguments(exponents: Exponents) -> [usize; 3] {
 }
 
 /// One step of de Casteljau's algorithm.
+#[inline]
 fn contract<const FROM: usize, const TO: usize>(
     parents: &[[usize; 4]; TO],
     coefficients: &[f64; FROM],
     at: &Barycentric4,
 ) -> [f64; TO] {
-    parents.map(|of| {
-        let terms = of.map(|position| coefficients[position]);
-        dot(&terms, at)
-    })
+    let mut contracted = [0.0; TO];
+    for (sum, of) in contracted.iter_mut().zip(parents) {
+        *sum = dot(&of.map(|position| coefficients[position]), at);
+    }
+    contracted
 }
 
 /// The sum of products, from the first to the last: a weight of zero then changes no
 /// bit, and a face has the same values in both tetrahedra if they name its vertices in
 /// the same order.
+#[inline]
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     ((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]) + a[3] * b[3]
 }

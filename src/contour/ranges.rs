@@ -176,7 +176,9 @@ type OfCell<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
 
 /// The bounds of a cubic; empty if a coefficient is not finite.
 fn usable(coefficients: &[f64], (low, high): (f64, f64)) -> [f32; 2] {
-    let is_usable = coefficients.iter().all(|c| c.is_finite());
+    // without a branch for each coefficient
+    let has_nan = coefficients.iter().fold(false, |found, c| found | c.is_nan());
+    let is_usable = !has_nan && low.is_finite() && high.is_finite();
     if is_usable { [rounded_down(low), -rounded_down(-high)] } else { EMPTY }
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::contour::LevelError;
+use crate::contour::surface::MOST_POINTS;
 use crate::mesh::MeshError;
 use crate::monitor::SelectionError;
 use crate::pde::PdeError;
@@ -88,7 +89,7 @@ pub enum FilterError {
     #[error("{option} must be a positive number, not {value:?}")]
     NotPositive { option: &'static str, value: f64 },
 
-    #[error("--nside must be 2 or more, not {points}")]
+    #[error("--nside must be 2 to {MOST_POINTS}, not {points}")]
     PointsPerSide { points: u32 },
 
     #[error("give one of --tolerance, --nside and --triangles, not several")]

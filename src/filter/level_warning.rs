@@ -3,8 +3,8 @@
 /// What people should know about levels, of all grids that were contoured at them: that
 /// the solution does not attain some, or is constant. The range is that of all grids.
 ///
-/// Levels that `is_drawn` says have a line are not told: one beside a wall's value, by
-/// rounding, has the wall for its line.
+/// Levels that `is_drawn` says have a contour are not told: one beside a wall's value, by
+/// rounding, has the wall for its contour.
 pub fn level_warning(
     label: &str,
     [low, high]: [f64; 2],
@@ -12,8 +12,9 @@ pub fn level_warning(
     is_drawn: impl Fn(usize) -> bool,
 ) -> Option<String> {
     if levels.is_empty() {
-        let text = format!("'{label}' is {low:?} everywhere: there is no level inside its range");
-        return Some(text);
+        let constant =
+            format!("'{label}' is {low:?} everywhere: there is no level inside its range");
+        return Some(if low < high { "no levels were given".to_owned() } else { constant });
     }
     let is_outside =
         |&(place, &level): &(usize, &f64)| (level < low || level > high) && !is_drawn(place);
@@ -21,7 +22,7 @@ pub fn level_warning(
         levels.iter().enumerate().filter(is_outside).map(|(_, &level)| level).collect();
     (!outside.is_empty()).then(|| {
         let outside = list(&outside);
-        format!("no line at {outside}: outside the range {low:?} to {high:?} of '{label}'")
+        format!("no contour at {outside}: outside the range {low:?} to {high:?} of '{label}'")
     })
 }
 
@@ -40,11 +41,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_levels_outside_are_told() {
+    fn levels_outside_and_none_at_all_are_told() {
         assert_eq!(level_warning("u", [0.0, 1.0], &[0.0, 0.5, 1.0], |_| false), None);
         let text = level_warning("u", [0.0, 1.0], &[-1.0, 0.5, 2.0], |_| false).unwrap();
-        assert_eq!(text, "no line at -1.0, 2.0: outside the range 0.0 to 1.0 of 'u'");
+        assert_eq!(text, "no contour at -1.0, 2.0: outside the range 0.0 to 1.0 of 'u'");
         let constant = level_warning("u", [3.0, 3.0], &[], |_| false).unwrap();
+        assert_eq!(level_warning("u", [0.0, 1.0], &[], |_| false).unwrap(), "no levels were given");
         assert_eq!(level_warning("u", [0.0, 1.0], &[-1e-9], |_| true), None);
         assert!(constant.starts_with("'u' is 3.0 everywhere"), "{constant}");
     }

@@ -6,7 +6,7 @@ use super::gradients::GradientSource;
 use super::output::OutputOptions;
 use crate::contour::Levels;
 use crate::contour::lines::{Method, Resolution};
-use crate::contour::surface::Fineness;
+use crate::contour::surface::{Fineness, MOST_POINTS};
 use crate::interpolant::Predictor;
 use crate::vtk::{ArrayType, UnstructuredGrid};
 
@@ -52,7 +52,7 @@ pub struct ContourOptions {
     /// lines; without this, `points_per_side` and `triangles`:
     /// [`DEFAULT_SURFACE_TOLERANCE`] times the diagonal for surfaces.
     pub tolerance: Option<f64>,
-    /// Points on each side of a patch of a surface: the thesis' *nSide*, two at least.
+    /// Points on each side of a patch of a surface: the thesis' *nSide*, 2 to [`MOST_POINTS`].
     pub points_per_side: Option<u32>,
     /// The greatest number of triangles: as many points on each side as that allows.
     pub triangles: Option<usize>,
@@ -165,7 +165,9 @@ impl ContourOptions {
                 }
                 Ok(Fineness::Tolerance(value))
             }
-            (None, Some(points), None) if points >= 2 => Ok(Fineness::PointsPerSide(points)),
+            (None, Some(points), None) if (2..=MOST_POINTS).contains(&points) => {
+                Ok(Fineness::PointsPerSide(points))
+            }
             (None, Some(points), None) => Err(FilterError::PointsPerSide { points }),
             (None, None, Some(triangles)) => Ok(Fineness::PointsPerSide(within(triangles))),
             (None, None, None) => Ok(Fineness::Tolerance(DEFAULT_SURFACE_TOLERANCE * diagonal)),
@@ -191,6 +193,25 @@ impl ContourOptions {
             single: self.single.unwrap_or(as_grid),
             gradients: self.gradients,
             normals: self.normals,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_a_side_that_no_memory_holds_are_refused() {
+        let fineness = |points| {
+            let points_per_side = Some(points);
+            let options = ContourOptions { points_per_side, ..Default::default() };
+            options.fineness(1.0, |_| 0).map_err(|error| error.to_string())
+        };
+        assert_eq!(fineness(1025), Ok(Fineness::PointsPerSide(1025)));
+        for points in [1, 1026, 70_000] {
+            let told = format!("--nside must be 2 to 1025, not {points}");
+            assert_eq!(fineness(points), Err(told));
         }
     }
 }

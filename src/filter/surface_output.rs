@@ -51,6 +51,9 @@ impl SurfaceOutput<'_> {
         let mut sums = vec![(Vector::zeros(), 0.0); self.surface.points.len()];
         for (triangle, &cell) in self.surface.triangles.iter().zip(&self.surface.cells) {
             let frame = TetrahedronFrame::new(mesh.corners(cell as usize));
+            if frame.is_degenerate() {
+                continue;
+            }
             let cubic = self.interpolant.cubic(cell as usize);
             for &point in triangle {
                 let at = frame.barycentric(&self.surface.points[point as usize].position);

@@ -67,8 +67,9 @@ pub(super) fn quadratic_precision_of(
 pub(super) fn ascending_faces(points: &[u32; 4]) -> [[usize; 3]; 4] {
     let mut order = [0, 1, 2, 3];
     order.sort_unstable_by_key(|&corner| points[corner]);
-    [0, 1, 2, 3].map(|opposite| {
-        let mut face = order.into_iter().filter(|&corner| corner != opposite);
-        [(); 3].map(|()| face.next().unwrap_or(opposite))
-    })
+    let mut faces = [[0; 3]; 4];
+    for (opposite, face) in order.into_iter().zip(TetrahedronCubic::FACE_VERTICES) {
+        faces[opposite] = face.map(|place| order[place]);
+    }
+    faces
 }

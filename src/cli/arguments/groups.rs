@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Args;
 use vtu2contour::contour::Levels;
+use vtu2contour::contour::surface::MOST_POINTS;
 use vtu2contour::filter::{Component, ContourOptions, GradientSource, Monitor};
 use vtu2contour::monitor::{SamplePoints, Selection};
 use vtu2contour::vtk::{Floats, WriteOptions};
@@ -152,7 +153,7 @@ pub struct SurfaceArguments {
     /// points than crossings of edges, 3 for four times as many triangles, and so on
     #[arg(
         long, value_name = "N", conflicts_with_all = ["tolerance", "triangles"],
-        value_parser = clap::value_parser!(u32).range(2..=1025)
+        value_parser = clap::value_parser!(u32).range(2..=i64::from(MOST_POINTS))
     )]
     pub nside: Option<u32>,
 

@@ -3,6 +3,7 @@
 //! The thesis can only estimate how many triangles there will be before it draws them. Here
 //! the pieces are known by then, and each has a known number (its table 5.9).
 
+use super::flat_faces::flat_faces;
 use super::piece::Piece;
 use super::settle::settle;
 use super::{cells_at, first_new_vertex};
@@ -10,8 +11,8 @@ use crate::bernstein::Sign;
 use crate::contour::CellRanges;
 use crate::interpolant::TetrahedronCubics;
 
-/// More points a side would be a mistake.
-const MOST_POINTS: u32 = 1025;
+/// More points a side would be a mistake: a patch has a million triangles then.
+pub const MOST_POINTS: u32 = 1025;
 
 /// The greatest number of points on each side of a patch with which the surfaces at all
 /// levels together have at most so many triangles; two if even that is too fine.
@@ -24,7 +25,10 @@ pub fn points_per_side_within(
     let of_level = |&level: &f64| {
         let cells = cells_at(interpolant, ranges, level);
         let settled = settle(&cells, first_new_vertex(interpolant));
-        settled.pieces.iter().map(triangles_of).sum::<usize>()
+        let pieces = settled.pieces.iter();
+        let drawn = pieces.filter(|piece| !piece.is_collapsed(&cells[piece.cell as usize]));
+        let of_patches: usize = drawn.map(triangles_of).sum();
+        of_patches + flat_faces(&cells).len()
     };
     let coarsest: usize = levels.iter().map(of_level).sum();
     let fits = |points: &u32| coarsest * (*points as usize - 1).pow(2) <= triangles;

@@ -27,14 +27,20 @@ pub struct Cell {
     /// The cubic less the level; what rounding alone keeps from the level is zero, and so is
     /// what belongs to a wall.
     pub cubic: TetrahedronCubic,
+    /// Values of the cubic that are no larger may be rounding alone.
+    pub noise: f64,
     /// How the solution rises from each corner into the domain; zero for a corner that is on
     /// no wall.
     rises: [f64; 4],
-    /// Which faces, named by the corner opposite, lie on the level as a whole.
+    /// Which faces, named by the corner opposite, lie on the level as a whole and are drawn so.
     pub flat: [bool; 4],
-    /// Whether the corners, in this order, are those of a right-handed tetrahedron.
+    /// Whether the corners, in this order, are those of a right-handed tetrahedron; of a sliver,
+    /// by its neighbours.
     pub right_handed: bool,
 }
+
+/// The error of de Casteljau's algorithm, as a part of the largest coefficient.
+const NOISE: f64 = 32.0 * f64::EPSILON;
 
 impl Cell {
     /// A cell at a level; nothing for one of which two corners are the same point, which
@@ -74,7 +80,19 @@ impl Cell {
             // between walls that meet nothing is known inside a face
             on_level && !walls.surround(face.map(|n| sorted[n]))
         });
-        Some(Self { number, points: sorted, corners, order, cubic, rises, flat, right_handed })
+        let (low, high) = cubic.bounds();
+        let noise = NOISE * high.max(-low);
+        Some(Self {
+            number,
+            points: sorted,
+            corners,
+            order,
+            cubic,
+            noise,
+            rises,
+            flat,
+            right_handed,
+        })
     }
 
     /// The side of the level on which a point counts. On a wall it is the side on which the

@@ -5,6 +5,7 @@ mod cell;
 mod contour_surface;
 mod division;
 mod flat_faces;
+mod handedness;
 mod lattice;
 mod owner;
 mod patch;
@@ -16,7 +17,7 @@ mod tessellation;
 mod uniform;
 mod walls;
 
-pub use budget::points_per_side_within;
+pub use budget::{MOST_POINTS, points_per_side_within};
 pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
 
 use rayon::prelude::*;
@@ -36,7 +37,7 @@ use walls::Walls;
 /// How fine a surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fineness {
-    /// So many points on each side of a patch, two at least: the thesis' *nSide*.
+    /// So many points on each side of a patch, 2 to [`MOST_POINTS`]: the thesis' *nSide*.
     PointsPerSide(u32),
     /// No point of a triangle is farther from the surface than this, in the mesh's unit.
     Tolerance(f64),
@@ -71,7 +72,7 @@ pub fn contour_surface(
         surface.counts.divided += settled.divided;
         surface.counts.unresolved += settled.unresolved;
         let (points, tolerance) = match fineness {
-            Fineness::PointsPerSide(points) => (points.max(2), None),
+            Fineness::PointsPerSide(points) => (points.clamp(2, MOST_POINTS), None),
             Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
         };
         let patches = tessellations(&cells, &settled.pieces, points);
@@ -99,7 +100,10 @@ fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64
     };
     // of known length, so that it is not put together of parts, which takes twice the memory
     let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
-    cells.into_iter().flatten().collect()
+    let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
+    handedness::settle_slivers(&mut cells);
+    flat_faces::leave_to_patches(&mut cells);
+    cells
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {

@@ -33,9 +33,6 @@ pub const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 
 /// Slopes along the edges of a cell are no steeper than this many times its range.
 const STEEP: f64 = 6.0;
 
-/// The error of de Casteljau's algorithm, as a part of the largest coefficient.
-const NOISE: f64 = 32.0 * f64::EPSILON;
-
 impl Piece {
     /// The whole of a cell; `place` is the cell's among those that are active.
     pub fn whole(cell: &Cell, place: u32) -> Self {
@@ -50,37 +47,38 @@ impl Piece {
         }
     }
 
-    /// What is known of the surface in this piece.
-    pub fn certificate(&self, cell: &Cell) -> PatchCertificate {
-        let here = self.cubic(cell);
-        match here.patch_certificate(self.signs) {
-            // all rays meet the surface where they begin, or in a wall
-            PatchCertificate::Empty if self.is_opposed(cell, &here) => PatchCertificate::Patch,
-            certificate => certificate,
-        }
-    }
-
-    /// The cubic on this piece; what rounding alone keeps from the level is zero.
-    fn cubic(&self, cell: &Cell) -> TetrahedronCubic {
+    /// What is known of the surface in this piece; nothing if there is none, nor will be when
+    /// neighbours divide it.
+    ///
+    /// A piece that rounding alone could take to the other side stays: if neighbours divide its
+    /// edges, the new vertices may count as there, and then their surface ends in this piece.
+    pub fn certificate(&self, cell: &Cell) -> Option<PatchCertificate> {
         if self.depth == 0 {
-            return cell.cubic;
+            return is_near_level(&cell.cubic, cell.noise)
+                .then(|| cell.cubic.patch_certificate(self.signs));
         }
-        let noise = noise(&cell.cubic);
         let here = cell.cubic.sub_tetrahedron(&self.at);
-        TetrahedronCubic::new(here.coefficients.map(|c| if c.abs() <= noise { 0.0 } else { c }))
+        is_near_level(&here, cell.noise)
+            .then(|| without_rounding(&here, cell.noise).patch_certificate(self.signs))
     }
 
-    /// Whether a vertex counts as on the other side than the cubic on the piece, which is of
-    /// one sign: a neighbour, where the cubic is not, then has a surface on their common face.
-    fn is_opposed(&self, cell: &Cell, here: &TetrahedronCubic) -> bool {
-        let (low, high) = here.bounds();
-        let side = if low < 0.0 || high > 0.0 { Sign::of(low) } else { self.signs[0] };
-        (0..4).any(|n| self.signs[n] != side && cell.has_side(&self.at[n]))
+    /// Whether vertices count as on both sides: else nothing of the surface is drawn.
+    pub fn is_cut(&self) -> bool {
+        self.signs.iter().any(|&sign| sign != self.signs[0])
+    }
+
+    /// Whether the patch falls together in a vertex or an edge on the level, or in a face that is
+    /// drawn by itself.
+    pub fn is_collapsed(&self, cell: &Cell) -> bool {
+        let above = || (0..4).filter(|&n| self.signs[n] == Sign::Above).map(|n| &self.at[n]);
+        let in_flat_face = |face: usize| cell.flat[face] && above().all(|at| at[face] == 0.0);
+        let ends = above().count() < 3 || (0..4).any(in_flat_face);
+        ends && !above().any(|at| cell.has_side(at))
     }
 
     /// Whether sheets may meet in a vertex: it lies on the level, and the slope there is zero.
     pub fn has_singular_vertex(&self, cell: &Cell) -> bool {
-        let noise = noise(&cell.cubic);
+        let noise = cell.noise;
         let is_flat = |at: &Barycentric4| {
             let slopes = cell.cubic.barycentric_gradient(at);
             slopes.iter().all(|slope| (slope - slopes[0]).abs() <= STEEP * noise)
@@ -90,7 +88,7 @@ impl Piece {
 
     /// Whether an edge lies on the level as a whole, to rounding.
     pub fn has_edge_on_level(&self, cell: &Cell) -> bool {
-        let noise = noise(&cell.cubic);
+        let noise = cell.noise;
         let is_on_level = |edge: &[usize; 2]| {
             self.line(cell, *edge).coefficients.iter().all(|c| c.abs() <= noise)
         };
@@ -109,8 +107,13 @@ impl Piece {
     }
 }
 
-/// Values no larger than this may be rounding alone.
-fn noise(cubic: &TetrahedronCubic) -> f64 {
+/// Whether a cubic is zero somewhere, or would be if it were changed as much as rounding does.
+fn is_near_level(cubic: &TetrahedronCubic, noise: f64) -> bool {
     let (low, high) = cubic.bounds();
-    NOISE * high.max(-low)
+    low <= noise && high >= -noise
+}
+
+/// A cubic of which what may be rounding alone is zero.
+fn without_rounding(cubic: &TetrahedronCubic, noise: f64) -> TetrahedronCubic {
+    TetrahedronCubic::new(cubic.coefficients.map(|c| if c.abs() <= noise { 0.0 } else { c }))
 }

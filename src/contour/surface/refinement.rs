@@ -56,6 +56,10 @@ const INSIDE: [[f64; 3]; 4] = [[1.0 / 3.0; 3], [0.6, 0.2, 0.2], [0.2, 0.6, 0.2],
 /// further.
 const SHORTEST: f64 = 1.0 / 256.0;
 
+/// A way along which a weight changes by more than this leads so many times across its cell that
+/// rounding, which grows with the third power, counts there.
+const FARTHEST: f64 = 1e3;
+
 /// Rounds of divisions: a side is then at its shortest, if it was divided in each other one.
 const MAX_ROUNDS: usize = 16;
 
@@ -133,6 +137,11 @@ impl Refinement<'_> {
             return Wish::Nothing;
         }
         let cell = &self.cells[facet.cell as usize];
+        let longest = longest_side(cell, facet);
+        // all of it is as near to a corner, and corners are exact; so small, slopes may be rounding
+        if side_length(cell, facet, longest) <= self.tolerance {
+            return Wish::Nothing;
+        }
         let frame = TetrahedronFrame::new(cell.corners);
         let is_far = |at: &Barycentric4| self.is_far(cell, &frame, at);
         let side_is_far = |[i, j]: [usize; 2]| {
@@ -144,19 +153,28 @@ impl Refinement<'_> {
             return Wish::Nothing;
         }
         // always: else slivers come of slivers, and one far side of another without end
-        wanted[longest_side(cell, facet)] = true;
+        wanted[longest] = true;
         let possible = [0, 1, 2].map(|side| wanted[side] && is_long(facet, side));
         if possible == [false; 3] { Wish::Refused } else { Wish::Sides(possible) }
     }
 
     /// Whether a point may be farther from the level set than the tolerance: the level is not
-    /// met within that along the steepest way to it. Cells without volume have no slope, and
-    /// their neighbours decide.
+    /// met within that along the steepest way to it. A value that may be rounding is on the level:
+    /// where the cubic touches the level the sign need not change, and the slope is rounding too.
+    ///
+    /// In a sliver far thinner than the tolerance that way leads so far outside that the cubic is
+    /// all rounding there, and in a cell without volume there is none: their neighbours decide.
     fn is_far(&self, cell: &Cell, frame: &TetrahedronFrame, at: &Barycentric4) -> bool {
         let value = cell.cubic.value(at);
+        if value.abs() <= cell.noise {
+            return false;
+        }
         let slope = frame.gradient(&cell.cubic.barycentric_gradient(at));
-        let way = slope * (-value.signum() * self.tolerance / slope.norm());
+        let way = direction(&slope) * (-value.signum() * self.tolerance);
         let step = frame.barycentric_direction(&way);
+        if frame.is_degenerate() || step.iter().any(|change| change.abs() > FARTHEST) {
+            return false;
+        }
         let line = cell.cubic.restrict(at, &[0, 1, 2, 3].map(|n| at[n] + step[n]));
         let is_one_signed = line.coefficients.iter().all(|c| c * value > 0.0);
         is_one_signed || line.roots().as_slice().is_empty()
@@ -293,16 +311,23 @@ fn split(divided: [bool; 3], length: impl Fn(usize, usize) -> f64) -> ArrayVec<[
     parts
 }
 
+/// The unit vector along another, whose squares may be too small or too large for numbers;
+/// NaN for zero.
+fn direction(vector: &Vector) -> Vector {
+    (vector / vector.amax()).normalize()
+}
+
 fn is_long(facet: &Facet, side: usize) -> bool {
     let [a, b] = SIDES[side].map(|corner| &facet.rays[corner]);
     a.iter().zip(b).any(|(a, b)| (a - b).abs() > SHORTEST)
 }
 
 fn longest_side(cell: &Cell, facet: &Facet) -> usize {
-    let corners: [Vector; 3] = facet.at.map(|at| cell.position(&at));
-    let length = |side: usize| {
-        let [i, j] = SIDES[side];
-        (corners[j] - corners[i]).norm_squared()
-    };
+    let length = |side: usize| side_length(cell, facet, side);
     (0..3).max_by(|&a, &b| length(a).total_cmp(&length(b))).unwrap_or(0)
+}
+
+fn side_length(cell: &Cell, facet: &Facet, side: usize) -> f64 {
+    let [from, to] = SIDES[side].map(|corner| cell.position(&facet.at[corner]));
+    (to - from).norm()
 }

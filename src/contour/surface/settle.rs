@@ -37,6 +37,13 @@ const MAX_DEPTH_AT_EDGE: u16 = 12;
 /// for more.
 const MAX_PIECES: usize = 4096;
 
+/// Pieces of all cells together beyond which cells are left with less of them,
+/// [`MAX_PIECES_OF_MANY`]: a surface that is double everywhere would fill the memory.
+const MANY: usize = 1 << 22;
+
+/// Pieces of a cell beyond which they are left unresolved, if there are many in all.
+const MAX_PIECES_OF_MANY: usize = 64;
+
 /// A piece and what is known of it.
 struct Known {
     piece: Piece,
@@ -50,10 +57,8 @@ struct Known {
 pub fn settle(cells: &[Cell], points: u32) -> Settled {
     let whole = (0..cells.len() as u32).into_par_iter();
     let mut pieces: Vec<Known> = whole
-        .map(|place| Piece::whole(&cells[place as usize], place))
-        .map(|piece| known(cells, piece))
+        .filter_map(|place| known(cells, Piece::whole(&cells[place as usize], place)))
         .collect();
-    pieces.retain(holds_something);
     let mut next_vertex = points;
     loop {
         let marks = Marks::new(marked(cells, &pieces), next_vertex);
@@ -65,17 +70,17 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
             .into_par_iter()
             .inspect(|_| checkpoint())
             .flat_map_iter(|known| divided(cells, &marks, known))
-            .filter(holds_something)
             .collect();
     }
 }
 
-fn known(cells: &[Cell], piece: Piece) -> Known {
+/// What is known of a piece; nothing if no surface can be there.
+fn known(cells: &[Cell], piece: Piece) -> Option<Known> {
     let cell = &cells[piece.cell as usize];
-    let certificate = piece.certificate(cell);
+    let certificate = piece.certificate(cell)?;
     let undecided = certificate == PatchCertificate::None;
     let is_divisible = undecided && piece.depth < deepest(&piece, cell);
-    Known { piece, certificate, is_divisible }
+    Some(Known { piece, certificate, is_divisible })
 }
 
 /// The divisions that a piece may have come of, and be divided again.
@@ -89,15 +94,12 @@ fn deepest(piece: &Piece, cell: &Cell) -> u16 {
     }
 }
 
-fn holds_something(known: &Known) -> bool {
-    known.certificate != PatchCertificate::Empty
-}
-
 /// The edges that undecided pieces want to be divided, unless these are at a limit.
 fn marked(cells: &[Cell], pieces: &[Known]) -> Vec<([u32; 2], f64)> {
     // pieces of a cell stand together
     let groups: Vec<&[Known]> = pieces.chunk_by(|a, b| a.piece.cell == b.piece.cell).collect();
-    let marks = groups.into_par_iter().filter(|group| group.len() < MAX_PIECES);
+    let most = if pieces.len() < MANY { MAX_PIECES } else { MAX_PIECES_OF_MANY };
+    let marks = groups.into_par_iter().filter(|group| group.len() < most);
     marks
         .flat_map_iter(|group| group.iter().filter(|known| known.is_divisible))
         .map(|known| mark(&known.piece, &cells[known.piece.cell as usize]))
@@ -112,17 +114,20 @@ fn divided(cells: &[Cell], marks: &Marks, known: Known) -> impl Iterator<Item = 
     let mut parts = Vec::new();
     let cell = &cells[known.piece.cell as usize];
     marks.divide(known.piece, cell, &mut parts);
-    Either::Right(parts.into_iter().map(|part| self::known(cells, part)))
+    Either::Right(parts.into_iter().filter_map(|part| self::known(cells, part)))
 }
 
 fn settled(cells: usize, pieces: Vec<Known>) -> Settled {
     let mut divided = vec![false; cells];
     let mut settled = Settled::default();
     for Known { piece, certificate, .. } in pieces {
-        divided[piece.cell as usize] |= piece.depth > 0;
         let is_certified = certificate != PatchCertificate::None;
+        // else only neighbours had to be
+        divided[piece.cell as usize] |= piece.depth > 0 && (piece.is_cut() || !is_certified);
         settled.unresolved += usize::from(!is_certified);
-        settled.pieces.push(Piece { is_certified, ..piece });
+        if piece.is_cut() {
+            settled.pieces.push(Piece { is_certified, ..piece });
+        }
     }
     settled.divided = divided.into_iter().filter(|divided| *divided).count();
     settled

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::cell::Cell;
+use super::cell::{Cell, is_even};
 use super::contour_surface::{ContourSurface, SurfacePoint};
 use super::flat_faces::are_in_flat_face;
 use super::owner::Owner;
@@ -37,7 +37,7 @@ pub fn add_level(
         builder.add(chunk, true);
     }
     builder.add(flat_faces, false);
-    builder.finish();
+    builder.finish(first_point);
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
 }
@@ -51,7 +51,7 @@ struct Builder<'a> {
     facets: Vec<Facet>,
     /// Points that are vertices on the level.
     on_level: HashSet<u32>,
-    /// Whether some points of patches fell together on the level.
+    /// Whether parts of patches fell together on the level.
     collapsed: bool,
 }
 
@@ -72,7 +72,8 @@ impl Builder<'_> {
                 let rays = triangle.map(|point| chunk.rays[point as usize]);
                 let at = points.map(|point| point.at);
                 let facet = Facet { corners, piece, rays, at, cell };
-                self.collapsed |= is_collapsed(&facet);
+                let is_on_level = corners.iter().all(|corner| self.on_level.contains(corner));
+                self.collapsed |= is_on_level || is_collapsed(&facet);
                 self.facets.push(facet);
             }
         }
@@ -96,7 +97,8 @@ impl Builder<'_> {
     }
 
     /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
-    fn finish(mut self) {
+    /// `first_point` is the level's first.
+    fn finish(mut self, first_point: usize) {
         if let Some(tolerance) = self.level.tolerance {
             let mut refinement = Refinement {
                 cells: self.level.cells,
@@ -105,7 +107,7 @@ impl Builder<'_> {
                 facets: std::mem::take(&mut self.facets),
                 points: Vec::new(),
                 first_point: self.surface.points.len() as u32,
-                on_level: self.on_level,
+                on_level: std::mem::take(&mut self.on_level),
                 coarse: 0,
             };
             refinement.run();
@@ -121,9 +123,33 @@ impl Builder<'_> {
             self.facets.retain(|facet| !is_collapsed(facet));
             drop_doubles(&mut self.facets);
         }
+        self.drop_unused_points(first_point);
         let number = |facet: &Facet| self.level.cells[facet.cell as usize].number;
         self.surface.triangles.extend(self.facets.iter().map(|facet| facet.corners));
         self.surface.cells.extend(self.facets.iter().map(number));
+    }
+
+    /// Takes away points of the level that no triangle has, as those of patches in faces that are
+    /// drawn by themselves.
+    fn drop_unused_points(&mut self, first: usize) {
+        let mut is_used = vec![false; self.surface.points.len() - first];
+        for corner in self.facets.iter().flat_map(|facet| facet.corners) {
+            is_used[corner as usize - first] = true;
+        }
+        if !is_used.contains(&false) {
+            return;
+        }
+        let mut next = first;
+        let mut numbers = vec![0; is_used.len()];
+        for old in (0..is_used.len()).filter(|&old| is_used[old]) {
+            self.surface.points[next] = self.surface.points[first + old];
+            numbers[old] = next as u32;
+            next += 1;
+        }
+        self.surface.points.truncate(next);
+        for facet in &mut self.facets {
+            facet.corners = facet.corners.map(|corner| numbers[corner as usize - first]);
+        }
     }
 }
 
@@ -150,13 +176,18 @@ fn drop_doubles(facets: &mut Vec<Facet>) {
         name.sort_unstable();
         name
     };
-    let mut named: Vec<([u32; 3], usize)> =
-        facets.iter().enumerate().map(|(place, facet)| (name(facet), place)).collect();
+    let mut named: Vec<([u32; 3], bool, usize)> = facets
+        .iter()
+        .enumerate()
+        .map(|(place, facet)| (name(facet), is_even(&facet.corners.map(|n| n as usize)), place))
+        .collect();
     named.sort_unstable();
     let mut dropped = vec![false; facets.len()];
     for same in named.chunk_by(|a, b| a.0 == b.0) {
-        let kept = same.len() % 2;
-        for (_, place) in &same[kept..] {
+        let odd = same.iter().filter(|(_, is_even, _)| !is_even).count();
+        // the odd ones come first
+        let pairs = odd.min(same.len() - odd);
+        for (_, _, place) in &same[odd - pairs..odd + pairs] {
             dropped[*place] = true;
         }
     }

@@ -125,10 +125,10 @@ mod tests {
     fn cells_and_points_by_hand() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.4, 0.3], [0.5, 0.7]];
         let points = points.map(|[x, y]| Vector::new(x, y, 0.0));
-        let cells = vec![[0, 1, 2], [2, 0, 3]];
+        let cells = vec![[0, 1, 2], [2, 3, 0]];
         let mesh = TriangleMesh::new(points[..4].to_vec(), cells).unwrap();
         let origins = Origins::new(&mesh, &[]);
-        assert_eq!(origins.of_cell([0, 2, 3], 0, &points), ([2, 0, 3], 1));
+        assert_eq!(origins.of_cell([0, 2, 3], 0, &points), ([2, 3, 0], 1));
         assert_eq!(origins.of_cell([0, 1, 4], 0, &points), ([0, 1, 4], 0));
         assert_eq!(origins.of_cell([3, 5, 2], 0, &points), ([3, 5, 2], 1));
         let regions = [7, 8];

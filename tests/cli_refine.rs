@@ -196,6 +196,140 @@ fn a_mesh_alone() {
     assert_eq!(fine.point_data.len(), 1);
 }
 
+/// New boundary points are on the curve that a file gives, with the cubic's values there.
+#[test]
+fn a_curved_boundary_is_met() {
+    let on_circle = |n: i64, of: i64| {
+        let angle = std::f64::consts::TAU * (n % of) as f64 / of as f64;
+        [angle.cos(), angle.sin(), 0.0]
+    };
+    let points: Vec<f64> = (0..8).flat_map(|n| on_circle(n, 8)).chain([0.0; 3]).collect();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, points));
+    (0..8).for_each(|n| grid.push_cell(5, &[8, n, (n + 1) % 8]));
+    let bench = bench(&with_data(grid));
+    // half of the circle as one polyline, half as lines
+    let points: Vec<f64> = (0..720).flat_map(|n| on_circle(n, 720)).collect();
+    let mut circle = UnstructuredGrid::new(DataArray::new("Points", 3, points));
+    circle.push_cell(4, &(0..=360).collect::<Vec<i64>>());
+    (360..720).for_each(|n| circle.push_cell(3, &[n, (n + 1) % 720]));
+    write_vtu(bench.path("circle.vtu"), &circle, Default::default()).unwrap();
+    let job = ["refine", "in.vtu", "-o", "out.vtu", "-a", "u", "--marks", "region"];
+    let job = [&job[..], &["--pde", PDE[0], "--boundary", "circle.vtu"]].concat();
+    let delaunay = [&job[..], &["--method", "delaunay", "--steps", "3"]].concat();
+    bench.succeed(&delaunay);
+    let fine = read(&bench, "out.vtu");
+    let (u, edges) = (numbers(&fine.point_data, "u"), numbers(&fine.point_data, "ParentEdge"));
+    let mut on_curve = 0;
+    for (n, p) in points_of(&fine).iter().enumerate() {
+        assert!((u[n] - cubic(*p).0).abs() < 1e-10, "{p:?}: {}", u[n]);
+        if n > 8 && edges[2 * n] >= 0.0 {
+            let radius = p[0].hypot(p[1]);
+            assert!((radius - 1.0).abs() < 1e-4, "{p:?}");
+            on_curve += 1;
+        }
+    }
+    assert!(on_curve >= 24, "{on_curve}");
+    // only the hybrid moves sides of cells; and the curve must be this mesh's
+    let said = bench.fail(1, &job);
+    assert!(said.contains("--boundary is for triangles by --method delaunay"), "{said}");
+    let circle_elsewhere: Vec<f64> =
+        circle.points.to_f64().unwrap().iter().map(|x| x + 5.0).collect();
+    circle.points = DataArray::new("Points", 3, circle_elsewhere);
+    write_vtu(bench.path("circle.vtu"), &circle, Default::default()).unwrap();
+    let said = bench.fail(1, &delaunay);
+    assert!(
+        said.contains("'in.vtu': no edge of the boundary or between regions lies on"),
+        "{said}"
+    );
+    std::fs::copy(bench.path("in.vtu"), bench.path("circle.vtu")).unwrap();
+    let said = bench.fail(1, &delaunay);
+    assert!(said.contains("--boundary: 'circle.vtu': there are no lines"), "{said}");
+}
+
+#[test]
+fn threads_do_not_matter() {
+    for grid in [square(), bar()] {
+        let bench = bench(&grid);
+        for method in ["bisect", "newest-vertex", "red-green", "centroid", "delaunay"] {
+            let with = |threads: &str| {
+                bench.succeed(&[
+                    "refine",
+                    "in.vtu",
+                    "-o",
+                    "out.vtu",
+                    "-a",
+                    "u",
+                    "--marks",
+                    "region",
+                    "--method",
+                    method,
+                    "--smooth",
+                    "optimised",
+                    "--steps",
+                    "3",
+                    "--threads",
+                    threads,
+                    "-q",
+                ]);
+                std::fs::read(bench.path("out.vtu")).unwrap()
+            };
+            let one = with("1");
+            assert!(one == with("2") && one == with("5"), "{method}");
+        }
+    }
+}
+
+/// Meshes that cannot be refined: one line each, with the file, and no output.
+#[test]
+fn wrong_meshes_are_told() {
+    let flat = |points: &[[f64; 2]], cells: &[[i64; 3]]| {
+        let points = points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect::<Vec<f64>>();
+        let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, points));
+        cells.iter().for_each(|cell| grid.push_cell(5, cell));
+        grid.cell_data.push(DataArray::new("eta", 1, vec![1.0; cells.len()]));
+        grid
+    };
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let with = |more: &[[f64; 2]], cells: &[[i64; 3]]| flat(&[&square[..], more].concat(), cells);
+    let mut bent = with(&[], &[[0, 1, 2], [0, 2, 3]]);
+    let mut heights = bent.points.to_f64().unwrap();
+    heights[5] = 0.5;
+    bent.points = DataArray::new("Points", 3, heights);
+    let cases = [
+        (with(&[[f64::NAN, 0.0]], &[[0, 1, 2], [0, 2, 4]]), "bisect", "point 4 is not finite"),
+        (
+            with(&[[0.0, 0.0]], &[[0, 1, 2], [4, 2, 3]]),
+            "delaunay",
+            "points 0 and 4 are at the same place",
+        ),
+        (
+            with(&[[0.5, -1.0], [0.5, 0.5], [2.0, 0.5]], &[[0, 1, 2], [4, 6, 5]]),
+            "delaunay",
+            "crosses another one",
+        ),
+        (
+            with(&[[2.0, 1.0], [2.0, 2.0]], &[[0, 1, 2], [2, 4, 5]]),
+            "delaunay",
+            "touches itself at point 2",
+        ),
+        (with(&[], &[[0, 1, 2], [0, 2, 3], [0, 1, 2]]), "delaunay", "edge from point 0 to point"),
+        (with(&[[3.0, 0.0]], &[[0, 1, 2], [0, 1, 4]]), "delaunay", "cell 1 has no area"),
+        (bent, "delaunay", "does not lie in the plane of the others"),
+    ];
+    for (grid, method, expected) in cases {
+        let bench = bench(&grid);
+        let said = bench
+            .fail(1, &["refine", "in.vtu", "-o", "out.vtu", "--marks", "eta", "--method", method]);
+        assert!(said.contains("'in.vtu': ") && said.contains(expected), "{said}");
+        assert_eq!(said.trim_end().lines().count(), 1, "{said}");
+        assert!(!bench.path("out.vtu").exists());
+        if method == "delaunay" {
+            // what is only wrong for the triangulation can be bisected
+            bench.succeed(&["refine", "in.vtu", "-o", "out.vtu", "--marks", "eta"]);
+        }
+    }
+}
+
 #[test]
 fn a_solver_between_the_steps() {
     let bench = bench(&square());
@@ -220,6 +354,8 @@ fn a_solver_between_the_steps() {
     // it writes another mesh, or what is none
     let said = bench.fail(1, &with("cp in.vtu {output} # {input}"));
     assert!(said.contains("it was given 10 points"), "{said}");
+    let said = bench.fail(1, &with("sed s/eta/ETA/ {input} > {output}"));
+    assert!(said.contains("it did not write the cell array 'eta', and --by needs it"), "{said}");
     let said = bench.fail(1, &with("echo no > {output} # {input}"));
     assert!(said.contains("--solver: what it wrote"), "{said}");
 }

@@ -313,7 +313,9 @@ def test_ctrl_c_ends_a_long_job():
     assert output.split() == ["interrupted", "1"]
 
 
-@pytest.mark.parametrize("name", ["", ".interpolant", ".mesh_contour", ".contours", ".options"])
+@pytest.mark.parametrize(
+    "name", ["", ".interpolant", ".mesh_contour", ".refinement", ".contours", ".options"]
+)
 def test_examples_in_docstrings(name):
     module = importlib.import_module(f"vtu2contour{name}")
     with warnings.catch_warnings():

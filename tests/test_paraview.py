@@ -293,3 +293,83 @@ def test_a_picture_beside_paraviews_own_contour(installed, tmp_path):
     for half in (picture[:, :600], picture[:, 600:]):
         is_blue = half[..., 2].astype(int) > half[..., 0].astype(int) + 30
         assert 0.1 < is_blue.mean() < 0.9
+
+
+def test_files_are_refined_as_by_the_module(installed, tmp_path):
+    grid = solid(n=3)
+    grid.cell_data["eta"] = np.arange(grid.n_cells, dtype=float) ** 2
+    grid.save(tmp_path / "mesh.vtu")
+    wanted = {
+        "average": ({"Number": 1.5}, {"by": "eta", "select": "average:1.5"}),
+        "bulk": (
+            {"Select": 2, "Number": 0.25, "MaximumPoints": 70},
+            {"by": "eta", "select": "bulk:0.25", "max_points": 70},
+        ),
+        "marks": ({"Select": 4}, {"marks": "eta", "max_points": 70}),
+        "pde": (
+            {"MaximumPoints": 0, "PDE": "uxx + uyy + uzz = -14*u"},
+            {"marks": "eta", "pde": "uxx + uyy + uzz = -14*u"},
+        ),
+        "wrong": ({"PDE": "uxx ="}, None),
+    }
+    always = {"RefineBy": ["CELLS", "eta"], "Solution": "u"}
+    jobs = [
+        {"output": str(tmp_path / f"{name}.vtu"), "properties": {**always, **properties}}
+        for name, (properties, _) in wanted.items()
+    ]
+    (tmp_path / "jobs.json").write_text(json.dumps(jobs))
+    script = [SCRIPTS / "refine_file.py", plugin(installed), tmp_path / "mesh.vtu"]
+    text = run(installed, ["pvpython", *script, tmp_path / "jobs.json"])
+    for name, (_, options) in wanted.items():
+        found = pv.read(tmp_path / f"{name}.vtu")
+        if options is None:
+            assert found.n_points == 0
+            continue
+        expected = vc.refine(pv.read(tmp_path / "mesh.vtu"), scalars="u", **options)
+        assert found.n_points > grid.n_points
+        assert np.array_equal(found.points, expected.points), name
+        assert np.array_equal(found.cells_dict[10], expected.cells_dict[10]), name
+        for array in ("u", "grad_u", "other", "ParentEdge"):
+            assert np.array_equal(found.point_data[array], expected.point_data[array]), name
+        for array in ("eta", "number", "OriginalCellIds"):
+            assert np.array_equal(found.cell_data[array], expected.cell_data[array]), name
+    assert text.count("DEI Refine: ") == 1 and "DEI Refine: pde: " in text
+
+
+def test_files_are_judged_as_by_the_module(installed, tmp_path):
+    grid, file = solid(n=3), tmp_path / "mesh.vtu"
+    grid.save(file)
+    pv.MultiBlock([grid, with_arrays(grid, "other")]).save(tmp_path / "blocks.vtm")
+    pde = "uxx + uyy + uzz = -14*u"
+    wanted = {
+        "defect": ({"PDE": pde, "Select": 1, "Number": 1.5}, {"pde": pde, "select": "average:1.5"}),
+        "area": ({"Monitor": 1, "RandomSamples": 5}, {"samples": 5}),
+        "stepwise": ({"Monitor": 2, "Select": 3, "Number": 0.5}, {"select": "bulk:0.5"}),
+        "interpolation": ({"Monitor": 3, "Second": 5}, {"second": "linear"}),
+        "missing": ({}, None),
+    }
+    always = {"Solution": ["POINTS", "u"]}
+    jobs = [
+        {"output": str(tmp_path / f"{name}.vtu"), "properties": {**always, **properties}}
+        for name, (properties, _) in wanted.items()
+    ]
+    blocks = {"file": str(tmp_path / "blocks.vtm"), "output": str(tmp_path / "out.vtm")}
+    jobs.append({**blocks, "properties": {**always, "Monitor": 1}})
+    (tmp_path / "jobs.json").write_text(json.dumps(jobs))
+    script = [SCRIPTS / "monitor_file.py", plugin(installed), file, tmp_path / "jobs.json"]
+    text = run(installed, ["pvpython", *script])
+    for name, (_, options) in wanted.items():
+        found = pv.read(tmp_path / f"{name}.vtu")
+        if options is None:
+            assert found.n_points == 0
+            continue
+        expected = vc.monitor(pv.read(file), name, scalars="u", **options)
+        assert sorted(found.cell_data) == sorted(expected.cell_data)
+        for array in expected.cell_data:
+            assert np.array_equal(found.cell_data[array], expected.cell_data[array]), name
+        assert np.array_equal(found.point_data["grad_u"], grid["grad_u"])
+    assert text.count("DEI Monitor: ") == 1 and "needs the PDE" in text
+    judged = pv.read(tmp_path / "out.vtm")
+    area = vc.monitor(grid, "area", scalars="u")["AreaMonitor"]
+    assert np.array_equal(judged[0].cell_data["AreaMonitor"], area)
+    assert "AreaMonitor" not in judged[1].cell_data

@@ -18,7 +18,7 @@ create_exception!(
 );
 
 /// What the texts name as options of the command line are arguments here.
-const ARGUMENTS: [(&str, &str); 16] = [
+const ARGUMENTS: [(&str, &str); 15] = [
     ("give --array NAME", "give scalars=NAME"),
     ("--component 0..", "component=0.."),
     ("--component mag", "component='mag'"),
@@ -26,13 +26,12 @@ const ARGUMENTS: [(&str, &str); 16] = [
     ("leave --gradient out", "leave gradient out"),
     ("--gradient", "gradient"),
     ("give --pde EQUATION", "give pde=EQUATION"),
-    ("--select", "select"),
-    ("leave --interpolant out", "leave interpolant out"),
     ("--pde", "pde"),
     ("give --param ", "give parameters "),
     ("--tolerance, --nside and --triangles", "tolerance, nside and triangles"),
     ("--merge-points 0", "merge_points=0"),
     ("--merge-points", "merge_points"),
+    ("--method delaunay", "method='delaunay'"),
     ("--interpolant linear", "interpolant='linear'"),
     ("--", ""),
 ];

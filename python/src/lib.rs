@@ -9,6 +9,7 @@ mod job;
 mod monitor;
 mod options;
 mod output;
+mod refinement;
 
 /// The compiled part of `vtu2contour`.
 #[pyo3::pymodule]
@@ -19,6 +20,9 @@ mod _core {
     use super::error::{MissingArrayError, NothingToContourError};
     #[pymodule_export]
     use super::grid_interpolant::GridInterpolant;
+
+    #[pymodule_export]
+    use super::refinement::{curves, refine_arrays, refine_grid};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

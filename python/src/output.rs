@@ -7,7 +7,7 @@ use vtu2contour::filter::{
     Contours, GradientOrigin, Interpolant, Interpolation, Output, Report, level_warning,
 };
 use vtu2contour::mesh::Vector;
-use vtu2contour::vtk::{Attributes, CellArray, PolyData};
+use vtu2contour::vtk::{Attributes, CellArray, PolyData, UnstructuredGrid};
 
 use super::arrays::{rows, to_python};
 use super::error::in_python;
@@ -18,12 +18,33 @@ pub fn poly_data(py: Python, data: PolyData) -> PyResult<Bound<PyDict>> {
     output.set_item("points", to_python(py, data.points)?)?;
     output.set_item("lines", cells(py, &data.lines))?;
     output.set_item("polys", cells(py, &data.polys))?;
-    output.set_item("point_roles", roles(&data.point_data))?;
-    output.set_item("cell_roles", roles(&data.cell_data))?;
-    output.set_item("point_data", arrays(py, &data.point_data)?)?;
-    output.set_item("cell_data", arrays(py, &data.cell_data)?)?;
-    output.set_item("field_data", arrays(py, &data.field_data)?)?;
+    put_data(&output, &data.point_data, &data.cell_data, &data.field_data)?;
     Ok(output)
+}
+
+/// A grid as a dictionary of arrays.
+pub fn grid(py: Python, grid: UnstructuredGrid) -> PyResult<Bound<PyDict>> {
+    let output = PyDict::new(py);
+    output.set_item("points", to_python(py, grid.points)?)?;
+    output.set_item("cells", cells(py, &grid.cells))?;
+    output.set_item("types", PyArray1::from_vec(py, grid.types))?;
+    put_data(&output, &grid.point_data, &grid.cell_data, &grid.field_data)?;
+    Ok(output)
+}
+
+/// Adds the data of points, cells and the field, with their roles.
+fn put_data(
+    output: &Bound<PyDict>,
+    points: &Attributes,
+    cells: &Attributes,
+    field: &Attributes,
+) -> PyResult<()> {
+    let py = output.py();
+    output.set_item("point_roles", roles(points))?;
+    output.set_item("cell_roles", roles(cells))?;
+    output.set_item("point_data", arrays(py, points)?)?;
+    output.set_item("cell_data", arrays(py, cells)?)?;
+    output.set_item("field_data", arrays(py, field)?)
 }
 
 type Cells<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);

@@ -7,7 +7,9 @@ cubic: smooth, every point on its level, islands inside a cell included.
 
 ``contour(mesh, levels)`` contours a mesh of pyvista or vtk; ``Interpolant(points, cells, u,
 grad)`` does the same with NumPy arrays, and is kept for any number of levels; ``info(mesh)``
-tells what would be done. ``monitor(mesh, kind)`` says where the mesh should be finer.
+tells what would be done; ``monitor(mesh, kind)`` says where the mesh should be finer, and
+``refine(mesh, by=...)`` and ``refine_arrays(points, cells, marks)``
+make meshes finer, ``refine`` with a solver between the steps.
 
 >>> import numpy as np
 >>> import vtu2contour as vc
@@ -26,6 +28,7 @@ from .contours import Contours
 from .interpolant import Interpolant
 from .mesh_contour import MeshInterpolant, contour, info
 from .mesh_monitor import monitor
+from .refinement import Refined, SolverError, refine, refine_arrays
 
 __all__ = [
     "Contours",
@@ -33,8 +36,12 @@ __all__ = [
     "MeshInterpolant",
     "MissingArrayError",
     "NothingToContourError",
+    "Refined",
+    "SolverError",
     "__version__",
     "contour",
     "info",
     "monitor",
+    "refine",
+    "refine_arrays",
 ]

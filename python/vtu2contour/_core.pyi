@@ -44,3 +44,21 @@ class GridInterpolant(_Interpolant):
 
     def __new__(cls, grid: dict[str, Any], options: dict[str, Any]) -> GridInterpolant: ...
     def monitor(self, choice: dict[str, Any]) -> dict[str, Any]: ...
+
+def refine_grid(
+    grid: dict[str, Any],
+    asked: tuple[str, tuple[str, float] | None],
+    regions: str | None,
+    solution: dict[str, Any],
+    options: dict[str, Any],
+    is_first: bool,
+) -> tuple[dict[str, Any], dict[str, Any]]: ...
+def refine_arrays(
+    points: NDArray[np.float64],
+    cells: NDArray[np.uint32],
+    marks: NDArray[np.uint32],
+    regions: NDArray[np.uint32],
+    state: NDArray[np.uint16],
+    options: dict[str, Any],
+) -> dict[str, Any]: ...
+def curves(grid: dict[str, Any]) -> list[NDArray[np.float64]]: ...

@@ -74,9 +74,7 @@ def poly_data(parts: dict[str, Any]) -> Any:
     for name, put in (("lines", data.SetLines), ("polys", data.SetPolys)):
         if len(parts[name][0]) > 1:
             put(_cells(*parts[name]))
-    _put(data.GetPointData(), parts["point_data"], parts["point_roles"])
-    _put(data.GetCellData(), parts["cell_data"], parts["cell_roles"])
-    _put(data.GetFieldData(), parts["field_data"], [])
+    _put_data(data, parts)
     return data
 
 
@@ -86,6 +84,21 @@ def with_cell_arrays(mesh: Any, arrays: dict[str, np.ndarray]) -> Any:
     copy.ShallowCopy(mesh)
     _put(copy.GetCellData(), [(name, values, []) for name, values in arrays.items()], [])
     return copy
+
+
+def unstructured_grid(parts: dict[str, Any]) -> Any:
+    """A ``vtkUnstructuredGrid`` of arrays."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+    grid, points = vtkUnstructuredGrid(), vtkPoints()
+    points.SetData(numpy_to_vtk(parts["points"], deep=True))
+    grid.SetPoints(points)
+    types = numpy_to_vtk(parts["types"], deep=True, array_type=VTK_UNSIGNED_CHAR)
+    grid.SetCells(types, _cells(*parts["cells"]))
+    _put_data(grid, parts)
+    return grid
 
 
 def _as_grid(mesh: Any) -> Any:
@@ -198,6 +211,12 @@ def _cells(offsets: np.ndarray, connectivity: np.ndarray) -> Any:
     arrays = (numpy_to_vtkIdTypeArray(array, deep=True) for array in (offsets, connectivity))
     cells.SetData(*arrays)
     return cells
+
+
+def _put_data(mesh: Any, parts: dict[str, Any]) -> None:
+    _put(mesh.GetPointData(), parts["point_data"], parts["point_roles"])
+    _put(mesh.GetCellData(), parts["cell_data"], parts["cell_roles"])
+    _put(mesh.GetFieldData(), parts["field_data"], [])
 
 
 def _put(data: Any, arrays: list[tuple[str, Any, list[str]]], roles: list[tuple[str, str]]) -> None:

@@ -1,8 +1,13 @@
 //! `vtu2contour refine`: a finer mesh where that is asked for, with all data.
 
-use anyhow::{Result, bail};
-use vtu2contour::filter::{ORIGINAL_CELLS, PARENT_EDGE, RefinedGrid, refine};
-use vtu2contour::vtk::{AtomicFile, UnstructuredGrid, WriteOptions, write_vtu_to};
+use std::path::PathBuf;
+
+use anyhow::{Result, anyhow, bail};
+use vtu2contour::filter::{RefineOptions, RefinedGrid, boundary_curves, refine, without_origins};
+use vtu2contour::mesh::Vector;
+use vtu2contour::vtk::{
+    AtomicFile, Selection, UnstructuredGrid, WriteOptions, read_grid, write_vtu_to,
+};
 
 use super::arguments::RefineArguments;
 use super::input::{Arrays, Input, Part};
@@ -32,6 +37,7 @@ pub fn run(arguments: &RefineArguments) -> Result<()> {
 /// Steps of refinement, and of solving between them.
 struct Job<'a> {
     arguments: &'a RefineArguments,
+    options: RefineOptions,
     solver: Option<Solver<'a>>,
     messages: &'a Messages,
     input: Input,
@@ -41,10 +47,13 @@ struct Job<'a> {
 impl<'a> Job<'a> {
     fn new(arguments: &'a RefineArguments, messages: &'a Messages) -> Result<Self> {
         let options = arguments.write_options();
-        let solver = arguments.solver.as_deref().map(|command| Solver::new(command, options));
+        let by = arguments.by.as_deref();
+        let solver = arguments.solver.as_deref();
+        let solver = solver.map(|command| Solver::new(command, by, options));
         messages.stage("reading");
         Ok(Self {
             arguments,
+            options: arguments.options(curves(&arguments.boundaries)?),
             solver: solver.transpose()?,
             messages,
             input: Input::open(&arguments.input, arguments.scalars.time, false)?,
@@ -54,7 +63,7 @@ impl<'a> Job<'a> {
 
     fn run(mut self) -> Result<()> {
         let part = self.input.only_part()?;
-        let mut grid = begun(self.input.read(part, Arrays::All)?.data);
+        let mut grid = without_origins(self.input.read(part, Arrays::All)?.data);
         let mut warned = Vec::new();
         if let (Some(solver), true) = (&self.solver, self.lacks_array(&grid)) {
             self.messages.stage("solving");
@@ -106,7 +115,7 @@ impl<'a> Job<'a> {
         warned: &mut Vec<String>,
     ) -> Result<Option<UnstructuredGrid>> {
         self.messages.stage(&format!("refining, step {step}"));
-        let refined = refine(grid, &self.arguments.options());
+        let refined = refine(grid, &self.options);
         let refined = refined.map_err(|error| self.input.explained(part, &error))?;
         self.tell(step, &refined, warned);
         if refined.added == 0 && step > 1 {
@@ -119,21 +128,14 @@ impl<'a> Job<'a> {
 
     /// Tells what was done, and once what people should know.
     fn tell(&self, step: u16, refined: &RefinedGrid, warned: &mut Vec<String>) {
-        let RefinedGrid { grid, marked, added, label, dropped, left_out, warnings } = refined;
+        let RefinedGrid { grid, marked, added, label, .. } = refined;
         self.messages.detail(&format!(
             "step {step}: {marked} cells marked, {added} points added: {} points, {} cells{}",
             grid.points.tuples(),
             grid.types.len(),
             label.as_ref().map_or(String::new(), |label| format!("; interpolated '{label}'"))
         ));
-        let mut texts = warnings.clone();
-        if left_out.total() > 0 {
-            texts.push(format!("left out: {left_out}"));
-        }
-        if dropped.total() > left_out.total() {
-            texts.push(format!("not in the refined mesh, for their dimension is less: {dropped}"));
-        }
-        for text in texts {
+        for text in refined.messages() {
             if !warned.contains(&text) {
                 self.messages.warning(&text);
                 warned.push(text);
@@ -142,12 +144,15 @@ impl<'a> Job<'a> {
     }
 }
 
-/// A grid without what an earlier run said of its own steps: numbers of cells and points are to
-/// be those of this grid.
-fn begun(mut grid: UnstructuredGrid) -> UnstructuredGrid {
-    grid.cell_data = grid.cell_data.without(&[ORIGINAL_CELLS]);
-    grid.point_data = grid.point_data.without(&[PARENT_EDGE]);
-    grid
+/// The curves that files hold.
+fn curves(files: &[PathBuf]) -> Result<Vec<Vec<Vector>>> {
+    let mut curves = Vec::new();
+    for file in files {
+        let grid = read_grid(file, &Selection::All)?.data;
+        let found = boundary_curves(&grid);
+        curves.extend(found.map_err(|error| anyhow!("--boundary: '{}': {error}", file.display()))?);
+    }
+    Ok(curves)
 }
 
 fn write(out: &mut AtomicFile, grid: &UnstructuredGrid, options: WriteOptions) -> Result<()> {

@@ -9,6 +9,8 @@ use vtu2contour::vtk::{Selection, UnstructuredGrid, WriteOptions, read_grid, wri
 /// A program that solves on a mesh.
 pub struct Solver<'a> {
     command: &'a str,
+    /// The cell array that it is to write.
+    by: Option<&'a str>,
     options: WriteOptions,
 }
 
@@ -18,13 +20,13 @@ const SAME: f64 = 1e-6;
 
 impl<'a> Solver<'a> {
     /// The program that a shell runs for this command; `{input}` and `{output}` stand for the
-    /// files.
-    pub fn new(command: &'a str, options: WriteOptions) -> Result<Self> {
+    /// files. `by`: the cell array that refinement goes by; it must be written anew each time.
+    pub fn new(command: &'a str, by: Option<&'a str>, options: WriteOptions) -> Result<Self> {
         if let Some(missing) = ["{input}", "{output}"].iter().find(|name| !command.contains(**name))
         {
             bail!("--solver: the command must name {missing}, as in 'solve {{input}} {{output}}'");
         }
-        Ok(Self { command, options })
+        Ok(Self { command, by, options })
     }
 
     /// The grid with the arrays that the program gives it.
@@ -46,6 +48,9 @@ impl<'a> Solver<'a> {
         let solved = read_grid(&output, &Selection::All);
         let solved = solved.map_err(|error| anyhow!("--solver: what it wrote: {error}"))?.data;
         refuse_other_mesh(grid, &solved)?;
+        if let Some(name) = self.by.filter(|name| solved.cell_data.get(name).is_none()) {
+            bail!("--solver: it did not write the cell array '{name}', and --by needs it");
+        }
         let mut with = grid.clone();
         for (mine, its) in [
             (&mut with.point_data, &solved.point_data),

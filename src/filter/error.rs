@@ -121,6 +121,15 @@ pub enum FilterError {
     #[error("--select: {0}")]
     Selection(#[from] SelectionError),
 
+    #[error("there are no lines: a boundary is given as lines or polylines")]
+    NoLines,
+
+    #[error(
+        "--boundary is for triangles by --method delaunay: other methods put new points on the \
+         sides of cells"
+    )]
+    UnusedBoundary,
+
     #[error("--pde is for the interpolant pci: leave --pde or --interpolant out")]
     UnusedPde,
 

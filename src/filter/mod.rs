@@ -4,6 +4,7 @@
 //! below: which array of a grid is meant and where its gradient is, cells as
 //! simplices, the interpolant, its contours, and the data that travel along.
 
+mod boundary_curves;
 mod cell_monitor;
 mod cells;
 mod chosen_array;
@@ -35,6 +36,7 @@ mod second_interpolant;
 mod solution;
 mod surface_output;
 
+pub use boundary_curves::boundary_curves;
 pub use cell_monitor::Monitor;
 pub use cells::{Cells, Part, Tetrahedra, Triangles};
 pub use chosen_array::{ChosenArray, Component};
@@ -53,7 +55,9 @@ pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, 
 pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
 pub use picture::picture;
 pub use preview::{Preview, preview};
-pub use refined_grid::{MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, RefinedGrid, refine};
+pub use refined_grid::{
+    MarkedBy, PARENT_EDGE, RefineMethod, RefineOptions, RefinedGrid, refine, without_origins,
+};
 pub use report::Report;
 pub use resample::Stencil;
 pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};

@@ -17,7 +17,7 @@ use super::solution::{Domain, Solution};
 use crate::interpolant::Pieces;
 use crate::mesh::{PointLocator, SimplexMesh, Vector};
 use crate::monitor::{SamplePoints, Selection};
-use crate::refine::delaunay::{DelaunayOptions, delaunay};
+use crate::refine::delaunay::{DelaunayError, DelaunayOptions, delaunay};
 use crate::refine::{
     Marks, MovedPoint, NewPoint, RefineError, Refinement, Smoothing, TriangleMethod,
     refine_tetrahedra, smooth,
@@ -73,6 +73,9 @@ pub struct RefineOptions {
     /// A cell array: edges between cells of different numbers are kept by the Delaunay hybrid
     /// and by smoothing. Division by itself keeps all sides of cells.
     pub regions: Option<String>,
+    /// Curved boundaries, as polylines: see [`DelaunayOptions::curves`]. For
+    /// [`RefineMethod::Delaunay`].
+    pub boundaries: Vec<Vec<Vector>>,
     /// What is known of the solution.
     pub solution: ContourOptions,
 }
@@ -96,6 +99,29 @@ pub struct RefinedGrid {
     pub warnings: Vec<String>,
 }
 
+impl RefinedGrid {
+    /// What people should know, a line each: warnings, and what is not in the refined grid.
+    pub fn messages(&self) -> Vec<String> {
+        let Self { dropped, left_out, warnings, .. } = self;
+        let mut texts = warnings.clone();
+        if left_out.total() > 0 {
+            texts.push(format!("left out: {left_out}"));
+        }
+        if dropped.total() > left_out.total() {
+            texts.push(format!("not in the refined mesh, for their dimension is less: {dropped}"));
+        }
+        texts
+    }
+}
+
+/// A grid without what an earlier refinement said of its own steps, so that numbers of cells and
+/// points will be those of this grid.
+pub fn without_origins(mut grid: UnstructuredGrid) -> UnstructuredGrid {
+    grid.cell_data = grid.cell_data.without(&[ORIGINAL_CELLS]);
+    grid.point_data = grid.point_data.without(&[PARENT_EDGE]);
+    grid
+}
+
 /// Refines the solids of a grid, or if it has none its two-dimensional cells.
 ///
 /// Of new points the solution's value is that of its cubic, and so is its gradient if that is
@@ -113,6 +139,10 @@ pub fn refine(
     let grid = prepared(Cow::Borrowed(grid), &options.solution)?;
     let interpolant = known_solution(&grid, &options.solution)?;
     let Cells { triangles, tetrahedra, left_out, .. } = Cells::new(&grid)?;
+    let is_delaunay = tetrahedra.is_none() && options.method == RefineMethod::Delaunay;
+    if !options.boundaries.is_empty() && !is_delaunay {
+        return Err(FilterError::UnusedBoundary);
+    }
     let job = Job { grid: &grid, options, left_out };
     match (tetrahedra, triangles) {
         (Some(part), _) => {
@@ -132,8 +162,9 @@ pub fn refine(
                 let mut refined = match options.method {
                     RefineMethod::Divide(method) => method.refine(&part.mesh, marks)?,
                     RefineMethod::Delaunay => {
-                        let options = DelaunayOptions { regions, ..DelaunayOptions::default() };
-                        delaunay(&part.mesh, marks, &options)?
+                        let curves = &options.boundaries;
+                        let kept = DelaunayOptions { regions, curves, ..Default::default() };
+                        delaunay(&part.mesh, marks, &kept)?
                     }
                 };
                 if let Some((smoothing, sweeps)) = options.smoothing {
@@ -206,10 +237,11 @@ impl Job<'_> {
                 warnings.push(format!(
                     "array '{name}' is not that of this mesh: refinement begins anew"
                 ));
-                refine(&regions, &Marks { state: &[], ..marks })?
+                refine(&regions, &Marks { state: &[], ..marks })
             }
-            other => other?,
+            other => other,
         };
+        let refined = refined.map_err(|error| of_grid(error, &part.parents))?;
         let mut grid = self.carried(part, &refined);
         if let (Some(name), false) = (state, refined.state.is_empty()) {
             grid.cell_data.push(DataArray::new(name, 1, refined.state.clone()));
@@ -346,6 +378,22 @@ const NEWEST_VERTEX_STATE: &str = "NewestVertexState";
 const RED_GREEN_STATE: &str = "RedGreenState";
 const STATES: [&str; 3] = [BISECTION_STATE, NEWEST_VERTEX_STATE, RED_GREEN_STATE];
 
+/// An error of simplices as one of the grid's cells.
+fn of_grid(error: FilterError, parents: &[u32]) -> FilterError {
+    match error {
+        FilterError::Refine(RefineError::RepeatedCorner { cell, point }) => {
+            RefineError::RepeatedCorner { cell: parents[cell as usize], point }.into()
+        }
+        FilterError::Delaunay(DelaunayError::NoArea { cell }) => {
+            DelaunayError::NoArea { cell: parents[cell as usize] }.into()
+        }
+        FilterError::Delaunay(DelaunayError::Marks(error)) => {
+            of_grid(FilterError::Refine(error), parents)
+        }
+        other => other,
+    }
+}
+
 /// One number a cell.
 fn cell_numbers(grid: &UnstructuredGrid, name: &str) -> Result<Vec<f64>, FilterError> {
     let available = || {
@@ -382,6 +430,9 @@ fn stencil<const CORNERS: usize>(
     stencil
 }
 
+/// Positions closer than this part of their size are the same.
+const SAME: f64 = 1e-12;
+
 /// A point, a value and a gradient; not finite where there are none.
 type Sample = (u32, f64, Vector);
 
@@ -415,7 +466,14 @@ fn samples<const CORNERS: usize>(
         }
         let mut sum = (0.0, Vector::zeros());
         for (cell, at) in &places {
-            let taylor = cubics.taylor(*cell, at);
+            let position = &refined.points[first + point];
+            let off = (mesh.position(*cell, at) - position).norm();
+            let taylor = if off <= SAME * position.norm() {
+                cubics.taylor(*cell, at)
+            } else {
+                // on a curved boundary the point is not where its edge has it
+                cubics.taylor(*cell, &mesh.weights_at(*cell, position))
+            };
             sum = (sum.0 + taylor.value, sum.1 + taylor.gradient);
         }
         let count = places.len() as f64;

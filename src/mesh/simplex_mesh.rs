@@ -94,6 +94,22 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
         position
     }
 
+    /// The barycentric coordinates of a point in a simplex, or beyond it; of its projection onto
+    /// a triangle's plane.
+    pub fn weights_at(&self, simplex: usize, point: &Vector) -> [f64; CORNERS] {
+        let mut at = [0.0; CORNERS];
+        match self.corners(simplex)[..] {
+            [a, b, c] => {
+                at.copy_from_slice(&TriangleFrame::new([a, b, c]).barycentric(point)[..]);
+            }
+            [a, b, c, d] => {
+                at.copy_from_slice(&TetrahedronFrame::new([a, b, c, d]).barycentric(point)[..]);
+            }
+            _ => {}
+        }
+        at
+    }
+
     /// The area of a triangle, the volume of a tetrahedron; zero without one, as far as
     /// rounding can tell.
     pub fn measure(&self, simplex: usize) -> f64 {
@@ -166,6 +182,7 @@ mod tests {
         assert_eq!(mesh.diagonal(), 5.0);
         assert_eq!(mesh.measure(0), 6.0);
         assert_eq!(mesh.position(0, &[0.0, 0.5, 0.5]), Vector::new(1.5, 2.0, 0.0));
+        assert_eq!(mesh.weights_at(0, &Vector::new(3.0, 4.0, 7.0)), [-1.0, 1.0, 1.0]);
     }
 
     #[test]
@@ -173,6 +190,7 @@ mod tests {
         let points = vec![Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
         let mesh = TetrahedronMesh::new(points, vec![[0, 1, 2, 3]]).unwrap();
         assert_eq!(mesh.position(0, &[0.0, 0.25, 0.25, 0.5]), Vector::new(0.25, 0.25, 0.5));
+        assert_eq!(mesh.weights_at(0, &Vector::new(1.0, 1.0, 1.0)), [-2.0, 1.0, 1.0, 1.0]);
         assert_eq!(mesh.measure(0), 1.0 / 6.0);
     }
 }

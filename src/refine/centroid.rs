@@ -8,7 +8,7 @@ use crate::mesh::TriangleMesh;
 /// no state.
 ///
 /// # Errors
-/// If a mark is no triangle of the mesh.
+/// If a mark is no triangle of the mesh, or a triangle cannot be divided.
 pub fn centroid(mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
     Marks { state: &[], ..*marks }.check(mesh)?;
     let mut is_divided = vec![false; mesh.triangles().len()];

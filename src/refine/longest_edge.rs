@@ -14,7 +14,7 @@ use crate::mesh::TriangleMesh;
 /// Bisects the marked triangles across their longest edges. Needs no state.
 ///
 /// # Errors
-/// If a mark is no triangle of the mesh.
+/// If a mark is no triangle of the mesh, or a triangle cannot be divided.
 pub fn longest_edge(mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
     Marks { state: &[], ..*marks }.check(mesh)?;
     Ok(Refinement { state: Vec::new(), ..bisect(mesh, &corners_opposite_longest(mesh), marks) })

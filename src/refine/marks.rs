@@ -1,5 +1,6 @@
 //! Which cells are to be divided.
 
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::mesh::SimplexMesh;
@@ -33,6 +34,20 @@ pub enum RefineError {
         "the refinement's state is not that of this mesh: leave it out, and refinement begins anew"
     )]
     State,
+    /// A cell has a point at no place.
+    #[error("point {point} is not finite: remove the cells that have it")]
+    NotFinite {
+        /// The point.
+        point: u32,
+    },
+    /// A cell has fewer corners than its kind.
+    #[error("cell {cell} names point {point} twice: remove it, or clean the mesh first")]
+    RepeatedCorner {
+        /// The cell.
+        cell: u32,
+        /// Its point.
+        point: u32,
+    },
     /// Numbers of points have 32 bits.
     #[error("the refined mesh would have more than 4294967295 points or cells")]
     TooLarge,
@@ -44,7 +59,7 @@ impl<'a> Marks<'a> {
         Self { cells, max_points: usize::MAX, state: &[] }
     }
 
-    /// Refuses marks and states of other meshes.
+    /// Refuses marks and states of other meshes, and cells that cannot be divided.
     pub(super) fn check<const CORNERS: usize>(
         &self,
         mesh: &SimplexMesh<CORNERS>,
@@ -54,11 +69,28 @@ impl<'a> Marks<'a> {
             return Err(RefineError::NoSuchCell { cell, cells });
         }
         let fits = self.state.is_empty() || self.state.len() == cells;
-        fits.then_some(()).ok_or(RefineError::State)
+        fits.then_some(()).ok_or(RefineError::State)?;
+        let wrong = mesh.simplices().par_iter().enumerate();
+        let wrong = wrong.find_map_first(|(cell, corners)| wrong_with(mesh, cell as u32, corners));
+        wrong.map_or(Ok(()), Err)
     }
 
     /// How many points may be added.
     pub(super) fn room(&self, points: usize) -> usize {
         self.max_points.saturating_sub(points).min(u32::MAX as usize - points)
     }
+}
+
+/// Why a cell cannot be divided. One without area or volume can, as long as it has all corners.
+fn wrong_with<const CORNERS: usize>(
+    mesh: &SimplexMesh<CORNERS>,
+    cell: u32,
+    corners: &[u32; CORNERS],
+) -> Option<RefineError> {
+    let is_finite = |point: u32| mesh.points()[point as usize].iter().all(|x| x.is_finite());
+    if let Some(&point) = corners.iter().find(|point| !is_finite(**point)) {
+        return Some(RefineError::NotFinite { point });
+    }
+    let twice = (1..CORNERS).find(|&n| corners[..n].contains(&corners[n]))?;
+    Some(RefineError::RepeatedCorner { cell, point: corners[twice] })
 }

@@ -1,7 +1,7 @@
 //! Newest-vertex bisection of triangles.
 //!
 //! E. G. Sewell (1972), with the closure of W. F. Mitchell (1991) (thesis, A.1.4). A triangle is
-//! bisected opposite its newest point, so all triangles that come of one are similar to eight.
+//! bisected opposite its newest point, so all triangles that come of one have one of four shapes.
 //! At the beginning the corner opposite the longest edge counts as the newest.
 
 use super::longest_edge::corners_opposite_longest;
@@ -15,7 +15,8 @@ use crate::mesh::TriangleMesh;
 /// longest edges: then angles may be halved once more than the first time.
 ///
 /// # Errors
-/// If a mark is no triangle of the mesh, or the state does not fit it.
+/// If a mark is no triangle of the mesh, the state does not fit it, or a triangle cannot be
+/// divided.
 pub fn newest_vertex(mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
     marks.check(mesh)?;
     if marks.state.is_empty() {

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
+use super::longest_edge::corners_opposite_longest;
 use super::triangle_bisection::Middles;
 use super::{Marks, RefineError, Refinement};
 use crate::interruption::checkpoint;
@@ -22,14 +23,17 @@ use crate::mesh::{NumberedEdges, TriangleMesh};
 /// point on the divided edge is no longer in its middle stay as they are.
 ///
 /// # Errors
-/// If a mark is no triangle of the mesh, or the state does not fit it.
+/// If a mark is no triangle of the mesh, the state does not fit it, or a triangle cannot be
+/// divided.
 pub fn red_green(mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
     marks.check(mesh)?;
     let joined = Joined::new(mesh, marks.state)?;
     let whole =
         TriangleMesh::view(mesh.points(), &joined.corners).map_err(|_| RefineError::State)?;
     let edges = NumberedEdges::new(&whole);
-    let marked = Marking::new(&joined, &edges, marks.room(mesh.points().len())).run(marks.cells);
+    let room = marks.room(mesh.points().len());
+    let marking = Marking::new(&joined, &edges, room);
+    let marked = marked_edges(&marking, marks.cells, || corners_opposite_longest(&whole));
     let middles = Middles::new(&whole, &edges, marked);
     let parts: Vec<Part> = (0..joined.corners.len())
         .into_par_iter()
@@ -232,14 +236,43 @@ fn partners(mesh: &TriangleMesh, state: &[u16]) -> Result<HashMap<u32, Half>, Re
     Ok(partners)
 }
 
+/// So often one triangle fewer is divided in four to meet a bound on points exactly. It takes
+/// one or two; on meshes of a few triangles some numbers of points cannot be met at all.
+const TRIES: usize = 8;
+
+/// The edges that are divided. Where there is no room for all `cells`, as many as there is
+/// room for, and single edges of the others, each `longest` first. `none`: nothing marked yet.
+fn marked_edges(none: &Marking, cells: &[u32], longest: impl Fn() -> Vec<u8>) -> Vec<bool> {
+    let mut best = none.clone();
+    let whole = best.run(cells);
+    if whole == cells.len() || best.room == 0 {
+        return best.marked;
+    }
+    let longest = longest();
+    best.fill(cells, &longest);
+    for fewer in (whole.saturating_sub(TRIES)..whole).rev() {
+        if best.room == 0 {
+            break;
+        }
+        let mut other = none.clone();
+        other.run(&cells[..fewer]);
+        other.fill(&cells[fewer..], &longest);
+        if other.room < best.room {
+            best = other;
+        }
+    }
+    best.marked
+}
+
 /// Marks of edges in the making.
+#[derive(Clone)]
 struct Marking<'a> {
     joined: &'a Joined,
     edges: &'a NumberedEdges,
     marked: Vec<bool>,
     /// The green triangles of the halves of divided edges.
     above: HashMap<u32, u32>,
-    /// Marked since the last mark of a triangle began.
+    /// Marked since the last mark that was asked for began.
     trail: Vec<u32>,
     room: usize,
 }
@@ -256,30 +289,56 @@ impl<'a> Marking<'a> {
         Self { joined, edges, marked, above, trail: Vec::new(), room }
     }
 
-    /// Marks the edges of triangles, as far as there is room; returns which edges are marked.
-    fn run(mut self, cells: &[u32]) -> Vec<bool> {
+    /// Marks the edges of triangles, as far as there is room; returns of how many there was.
+    fn run(&mut self, cells: &[u32]) -> usize {
+        let is_marked = |cell: &&u32| {
+            self.mark_triangle(self.joined.of_cells[**cell as usize]);
+            self.keep()
+        };
+        cells.iter().take_while(is_marked).count()
+    }
+
+    /// Marks single edges of triangles, the longest first, for the last few points. `longest`:
+    /// the corner opposite it.
+    fn fill(&mut self, cells: &[u32], longest: &[u8]) {
         for &cell in cells {
-            checkpoint();
-            self.mark_triangle(self.joined.of_cells[cell as usize]);
-            self.spread();
-            if self.trail.len() > self.room {
-                self.trail.iter().for_each(|&edge| self.marked[edge as usize] = false);
-                break;
+            let triangle = self.joined.of_cells[cell as usize];
+            let first = usize::from(longest[triangle as usize]);
+            for step in 0..3 {
+                if self.room == 0 {
+                    return;
+                }
+                self.mark_edge(triangle, (first + step) % 3);
+                self.keep();
             }
-            self.room -= self.trail.len();
-            self.trail.clear();
         }
-        self.marked
+    }
+
+    /// Marks what the last marks ask for; without the room for all of it, takes them back.
+    fn keep(&mut self) -> bool {
+        checkpoint();
+        self.spread();
+        let is_room = self.trail.len() <= self.room;
+        if is_room {
+            self.room -= self.trail.len();
+        } else {
+            self.trail.iter().for_each(|&edge| self.marked[edge as usize] = false);
+        }
+        self.trail.clear();
+        is_room
     }
 
     fn mark_triangle(&mut self, triangle: u32) {
-        for corner in 0..3 {
-            let edge = self.edges.of_triangles()[triangle as usize][corner];
-            let has_middle = self.joined.greens.get(&triangle).is_some_and(|g| g.apex == corner);
-            if !has_middle && !self.marked[edge as usize] {
-                self.marked[edge as usize] = true;
-                self.trail.push(edge);
-            }
+        (0..3).for_each(|corner| self.mark_edge(triangle, corner));
+    }
+
+    /// Marks the edge opposite a corner, unless it has its middle.
+    fn mark_edge(&mut self, triangle: u32, corner: usize) {
+        let edge = self.edges.of_triangles()[triangle as usize][corner];
+        let has_middle = self.joined.greens.get(&triangle).is_some_and(|g| g.apex == corner);
+        if !has_middle && !self.marked[edge as usize] {
+            self.marked[edge as usize] = true;
+            self.trail.push(edge);
         }
     }
 

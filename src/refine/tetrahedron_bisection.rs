@@ -25,8 +25,8 @@ use crate::mesh::{Faces, TetrahedronMesh, piece_edges};
 /// tetrahedra as it allows, those first that come first.
 ///
 /// # Errors
-/// If a mark is no tetrahedron of the mesh, the state does not fit it, or there are too many
-/// points to be numbered.
+/// If a mark is no tetrahedron of the mesh, the state does not fit it, a tetrahedron has points
+/// that are not finite or one of them twice, or there are too many points to be numbered.
 pub fn refine_tetrahedra(
     mesh: &TetrahedronMesh,
     marks: &Marks,

@@ -14,10 +14,12 @@ pub enum TriangleMethod {
     /// first mesh. The bound on points is met exactly.
     #[default]
     LongestEdge,
-    /// Bisection opposite the newest point: triangles of eight shapes for each of the first mesh.
+    /// Bisection opposite the newest point: triangles of four shapes for each of the first mesh,
+    /// and no angle below half of its smallest. The bound on points is met exactly.
     NewestVertex,
-    /// Division in four: triangles similar to those of the first mesh, or halves of such. A mark
-    /// for which there is not room for all its points is not kept, nor those after it.
+    /// Division in four: triangles similar to those of the first mesh, or halves of such. For
+    /// the last points under a bound, single edges of marked triangles are halved, so that it is
+    /// met exactly but on meshes of a few triangles.
     RedGreen,
     /// A point in the middle of each triangle: angles become ever smaller.
     Centroid,
@@ -27,7 +29,8 @@ impl TriangleMethod {
     /// Refines the marked triangles.
     ///
     /// # Errors
-    /// If a mark is no triangle of the mesh, or the state is not that of this mesh.
+    /// If a mark is no triangle of the mesh, the state is not that of this mesh, or a triangle
+    /// has points that are not finite or one of them twice.
     pub fn refine(self, mesh: &TriangleMesh, marks: &Marks) -> Result<Refinement<3>, RefineError> {
         match self {
             Self::LongestEdge => longest_edge(mesh, marks),

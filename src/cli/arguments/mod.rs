@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use vtu2contour::filter::{ContourOptions, MarkedBy, MonitorOptions, RefineOptions};
+use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::WriteOptions;
 
 mod groups;
@@ -323,12 +324,20 @@ pub struct RefineArguments {
     #[arg(long, value_name = "NAME", help_heading = "Refinement")]
     pub regions: Option<String>,
 
+    /// Curved boundary, as lines or polylines of a file (.vtp .vtu .vtk); may be repeated.
+    /// 'delaunay' puts new boundary points on it
+    ///
+    /// For sides of cells that have both ends on the curve, to a hundredth of their length. A
+    /// new point is halfway along the curve. Interfaces between --regions may be curved too.
+    #[arg(long = "boundary", value_name = "FILE", help_heading = "Refinement")]
+    pub boundaries: Vec<PathBuf>,
+
     /// The most points that the refined mesh may have
     ///
     /// With --monitor and without --steps, so many steps are made as it takes to have them, in
     /// which average:K selects the cells above the average where none are above K times that.
-    /// 'bisect', 'centroid' and 'delaunay' meet the number exactly; other methods, and
-    /// tetrahedra, come near.
+    /// With triangles the number is met exactly if as many are asked for (by 'red-green' on
+    /// meshes of more than a few triangles); with tetrahedra nearly.
     #[arg(long, value_name = "N", help_heading = "Refinement")]
     pub max_points: Option<usize>,
 
@@ -377,7 +386,9 @@ impl RefineArguments {
     }
 
     /// What the arguments ask for.
-    pub fn options(&self) -> RefineOptions {
+    ///
+    /// `boundaries`: the curves of the files.
+    pub fn options(&self, boundaries: Vec<Vec<Vector>>) -> RefineOptions {
         let selection = self.monitor.select.unwrap_or_default();
         let marked = match (&self.marks, &self.by) {
             (Some(name), _) => MarkedBy::Marks(name.clone()),
@@ -392,6 +403,7 @@ impl RefineArguments {
             smoothing: self.smooth.map(|name| (name.into(), SWEEPS)),
             max_points: self.max_points,
             regions: self.regions.clone(),
+            boundaries,
             solution: self.interpolant.options(self.scalars.options()),
         }
     }

@@ -20,8 +20,8 @@ pub enum DelaunayError {
     )]
     NotInPlane { point: u32 },
 
-    #[error("point {point} is not finite")]
-    NotFinite { point: u32 },
+    #[error("the mesh's coordinates are above 1e60: scale it first")]
+    TooLarge,
 
     #[error("cell {cell} has no area: remove it, or refine by bisection")]
     NoArea { cell: u32 },
@@ -37,6 +37,12 @@ pub enum DelaunayError {
          cells lie over one another, or do not fit together", ends[0], ends[1]
     )]
     CrossingEdges { ends: [u32; 2] },
+
+    #[error(
+        "no edge of the boundary or between regions lies on the given curves: each has both ends \
+         further from all of them than a hundredth of its length"
+    )]
+    NoEdgeOnCurves,
 
     #[error("the edge from point {} to point {} belongs to three cells or more", ends[0], ends[1])]
     Branching { ends: [u32; 2] },

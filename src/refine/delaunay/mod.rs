@@ -68,7 +68,7 @@ impl Default for DelaunayOptions<'_> {
 ///
 /// # Errors
 /// See [`DelaunayError`]: marks or regions of another mesh, a mesh that is not flat, points at
-/// the same place, edges that cross, a boundary that touches itself.
+/// the same place, edges that cross, a boundary that touches itself, curves of another mesh.
 pub fn delaunay(
     mesh: &TriangleMesh,
     marks: &Marks,

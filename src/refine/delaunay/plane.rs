@@ -1,6 +1,6 @@
 //! A flat mesh in coordinates of its plane.
 
-use spade::Point2;
+use spade::{Point2, mitigate_underflow};
 
 use super::DelaunayError;
 use crate::mesh::{TriangleMesh, Vector, plane_axes};
@@ -20,14 +20,10 @@ impl Plane {
     /// The plane of a mesh; that of x and y where it is parallel to it.
     ///
     /// # Errors
-    /// If a point of a cell is not finite or off the plane, or a cell has no area.
+    /// If a point of a cell is off the plane, or a cell has no area. All must be finite.
     pub fn new(mesh: &TriangleMesh) -> Result<Self, DelaunayError> {
         let points = mesh.points();
         let used = || mesh.triangles().iter().flatten().copied();
-        let is_finite = |point: &u32| points[*point as usize].iter().all(|x| x.is_finite());
-        if let Some(point) = used().find(|point| !is_finite(point)) {
-            return Err(DelaunayError::NotFinite { point });
-        }
         let flat = |&cell: &usize| mesh.frame(cell).is_degenerate();
         if let Some(cell) = (0..mesh.triangles().len()).find(flat) {
             return Err(DelaunayError::NoArea { cell: cell as u32 });
@@ -54,7 +50,8 @@ impl Plane {
 
     /// A point's coordinates in the plane.
     pub fn project(&self, point: &Vector) -> Point2<f64> {
-        Point2::new(self.axes[0].dot(point), self.axes[1].dot(point))
+        // numbers that spade refuses, far below rounding, are zero
+        mitigate_underflow(Point2::new(self.axes[0].dot(point), self.axes[1].dot(point)))
     }
 
     /// The point with the given coordinates.

@@ -57,7 +57,7 @@ impl Triangulation {
     /// Delaunay: so where four points lie on a circle, the edge of the input stays.
     ///
     /// # Errors
-    /// If edges cross.
+    /// If edges cross, or no feature is on a curve.
     pub fn new(
         points: Vec<Point2<f64>>,
         edges: &[[usize; 2]],
@@ -66,7 +66,7 @@ impl Triangulation {
     ) -> Result<Self, DelaunayError> {
         let mut crossing = Vec::new();
         let loaded = Spade::try_bulk_load_cdt(points, edges.to_vec(), |edge| crossing.push(edge));
-        let Ok(mut spade) = loaded else { return Err(DelaunayError::NotFinite { point: 0 }) };
+        let Ok(mut spade) = loaded else { return Err(DelaunayError::TooLarge) };
         // an edge through a point became several
         if spade.num_constraints() != edges.len() {
             let is_missing = |[from, to]: &&[usize; 2]| {
@@ -93,7 +93,12 @@ impl Triangulation {
                 spade.remove_constraint_edge(edge);
             }
         }
-        Ok(Self { spade, features, curves })
+        let all = Self { spade, features, curves };
+        let is_on_curve = |edge: &[u32; 2]| all.on_curve(*edge).is_some();
+        if !all.curves.is_empty() && !all.features.keys().any(is_on_curve) {
+            return Err(DelaunayError::NoEdgeOnCurves);
+        }
+        Ok(all)
     }
 
     /// How many points there are.
@@ -240,10 +245,17 @@ impl Triangulation {
     /// Where a feature is halved: on a curve that has both its ends, if that place is in one
     /// of the triangles beside it, so that nothing else is in the way.
     fn middle(&self, edge: [u32; 2]) -> Point2<f64> {
+        let beside = self.on_curve(edge).filter(|place| self.is_beside(edge, *place));
+        beside.unwrap_or_else(|| {
+            let [from, to] = edge.map(|point| self.position(point));
+            mix(from, to, 0.5)
+        })
+    }
+
+    /// The middle of the part of a curve between the ends of an edge, if they are on one.
+    fn on_curve(&self, edge: [u32; 2]) -> Option<Point2<f64>> {
         let [from, to] = edge.map(|point| self.position(point));
-        let straight = mix(from, to, 0.5);
-        let on_curve = self.curves.iter().find_map(|curve| curve.between(from, to));
-        on_curve.filter(|place| self.is_beside(edge, *place)).unwrap_or(straight)
+        self.curves.iter().find_map(|curve| curve.between(from, to))
     }
 
     fn is_beside(&self, edge: [u32; 2], place: Point2<f64>) -> bool {

@@ -1,8 +1,9 @@
-"""ParaView plugin: the filters *DEI Contour* and *DEI Refine*, under *Filters > DEI*.
+"""ParaView plugin: *DEI Contour*, *DEI Monitor* and *DEI Refine*, under *Filters > DEI*.
 
-They contour the cubics that vtu2contour makes of values, gradients and the PDE, and refine
-meshes whose new points have the cubics' values. The work is done in memory by the Python module
-``vtu2contour``; how both are installed is in the README beside this file.
+They contour the cubics that vtu2contour makes of values, gradients and the PDE, say where the mesh
+should be finer, and refine meshes whose new points have the cubics' values. The work is done in
+memory by the Python module ``vtu2contour``; how both are installed is in the README beside this
+file.
 """
 
 import warnings
@@ -26,9 +27,39 @@ AUTOMATIC = "Automatic"
 INTERPOLANTS = ("pci", "linear", "quadratic-precision")
 METHODS = ("aodea", "odea", "sode", "intercept")
 AS_INPUT = 2
+SELECTIONS = ("average", "fraction", "bulk", "tolerance")
+
+# What is known of the solution.
+SOLUTION_PROPERTIES = """
+<StringVectorProperty name="Gradient" command="SetGradient" number_of_elements="1"
+    default_values="Automatic" animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Vectors" none_string="Automatic">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array that is the gradient of the array, per unit of length.
+    Automatic: one with a usual name that fits the values, such as grad_u; else the gradient is
+    recovered from the values.</Documentation>
+</StringVectorProperty>
+<IntVectorProperty name="RecoverGradient" label="Recover Gradient" command="SetRecoverGradient"
+    number_of_elements="1" default_values="0" panel_visibility="advanced">
+  <BooleanDomain name="bool"/>
+  <Documentation>Recover the gradient from the values even if an array holds it.</Documentation>
+</IntVectorProperty>
+<StringVectorProperty name="PDE" label="PDE" command="SetPDE" number_of_elements="1"
+    default_values="" animateable="0">
+  <Documentation>The equation that the array solves, if it is known: the cubics solve it too.
+    For example uxx + uyy = -k2*u. There, the array is always u; x y z, ux uy uz,
+    uxx ... uyz, sin, cos, exp ... may occur, point arrays by their names, and the
+    parameters.</Documentation>
+</StringVectorProperty>
+<StringVectorProperty name="Parameters" label="PDE Parameters" command="SetParameters"
+    number_of_elements="1" default_values="" panel_visibility="advanced">
+  <Documentation>Values of names in the PDE, such as k2=84.39, c=1.</Documentation>
+</StringVectorProperty>
+"""
 
 # All properties, in the order of the panel. (ParaView 5.11 sorts those of methods by name.)
-PROPERTIES = """
+CONTOUR_PROPERTIES = """
 <InputProperty name="Input" command="SetInputConnection">
   <ProxyGroupDomain name="groups"><Group name="sources"/><Group name="filters"/></ProxyGroupDomain>
   <DataTypeDomain name="input_type"><DataType value="vtkDataSet"/></DataTypeDomain>
@@ -56,31 +87,9 @@ PROPERTIES = """
   <Documentation>The levels, in the unit of the array. Moving one costs only the contour: the
     cubics are kept while the input is the same.</Documentation>
 </DoubleVectorProperty>
-<StringVectorProperty name="Gradient" command="SetGradient" number_of_elements="1"
-    default_values="Automatic" animateable="0">
-  <ArrayListDomain name="array_list" attribute_type="Vectors" none_string="Automatic">
-    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
-  </ArrayListDomain>
-  <Documentation>The point array that is the gradient of Contour By, per unit of length.
-    Automatic: one with a usual name that fits the values, such as grad_u; else the gradient is
-    recovered from the values.</Documentation>
-</StringVectorProperty>
-<IntVectorProperty name="RecoverGradient" label="Recover Gradient" command="SetRecoverGradient"
-    number_of_elements="1" default_values="0" panel_visibility="advanced">
-  <BooleanDomain name="bool"/>
-  <Documentation>Recover the gradient from the values even if an array holds it.</Documentation>
-</IntVectorProperty>
-<StringVectorProperty name="PDE" label="PDE" command="SetPDE" number_of_elements="1"
-    default_values="" animateable="0">
-  <Documentation>The equation that the array solves, if it is known: the cubics solve it too.
-    For example uxx + uyy = -k2*u. There, the array is always u; x y z, ux uy uz,
-    uxx ... uyz, sin, cos, exp ... may occur, point arrays by their names, and the
-    parameters.</Documentation>
-</StringVectorProperty>
-<StringVectorProperty name="Parameters" label="PDE Parameters" command="SetParameters"
-    number_of_elements="1" default_values="" panel_visibility="advanced">
-  <Documentation>Values of names in the PDE, such as k2=84.39, c=1.</Documentation>
-</StringVectorProperty>
+"""
+
+DRAWING_PROPERTIES = """
 <DoubleVectorProperty name="Tolerance" command="SetTolerance" number_of_elements="1"
     default_values="0">
   <DoubleRangeDomain name="range" min="0"/>
@@ -134,24 +143,23 @@ PROPERTIES = """
 """
 
 
-@smproxy.filter(name="DEIContour", label="DEI Contour")
-@smhint.xml('<ShowInMenu category="DEI"/><Visibility replace_input="2"/>')
-@smproperty.xml(PROPERTIES)
-class DEIContour(VTKPythonAlgorithmBase):
-    """Contours the cubics of the Differential Equation Interpolant."""
+class SolutionFilter(VTKPythonAlgorithmBase):
+    """A filter that makes something of the interpolant of its input.
 
-    def __init__(self):
-        super().__init__(nInputPorts=1, nOutputPorts=1, outputType="vtkPolyData")
-        self._values = []
+    The interpolant is kept while the input and what is known of the solution stay the same.
+    """
+
+    #: what messages call it
+    NAME = ""
+
+    def __init__(self, output_type):
+        super().__init__(nInputPorts=1, nOutputPorts=1, outputType=output_type)
         self._solution = {}
         self._parameters = ""
         self._recover = False
         self._gradient = AUTOMATIC
-        self._drawing = {"normals": True, "double": None}
         #: the interpolant of the input that was seen last, and what it was made of
         self._kept = (None, None)
-
-    # what is contoured
 
     def SetGradient(self, name):
         self._change("_gradient", name or AUTOMATIC)
@@ -165,6 +173,96 @@ class DEIContour(VTKPythonAlgorithmBase):
 
     def SetParameters(self, text):
         self._change("_parameters", text or "")
+
+    def _change(self, name, value):
+        if getattr(self, name) != value:
+            setattr(self, name, value)
+            self.Modified()
+
+    def _choose(self, options, name, value):
+        if options.get(name) != value:
+            options[name] = value
+            self.Modified()
+
+    # the pipeline
+
+    def FillInputPortInformation(self, port, info):
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
+        info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
+        return 1
+
+    def FillOutputPortInformation(self, port, info):
+        info.Set(vtkDataObject.DATA_TYPE_NAME(), "vtkDataObject")
+        return 1
+
+    def RequestUpdateExtent(self, request, inputs, outputs):
+        """Cells of neighbouring processes are wanted: gradients are recovered with them."""
+        levels = vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_GHOST_LEVELS()
+        info = inputs[0].GetInformationObject(0)
+        info.Set(levels, max(info.Get(levels), 1))
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        mesh = vtkDataObject.GetData(inputs[0], 0)
+        output = vtkDataObject.GetData(outputs, 0)
+        output.Initialize()
+        try:
+            import vtu2contour
+        except ImportError as error:
+            tell_error(f"{MISSING} ({error})", self.NAME)
+            return 1
+        size = diagonal_of_all(mesh)
+        if not has_cells(mesh):
+            return 1  # another process has them
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", UserWarning)
+            try:
+                made = self._interpolant(vtu2contour, mesh)
+                output.ShallowCopy(self._made(made, size))
+            except vtu2contour.NothingToContourError as error:
+                if processes() == 1:
+                    tell_error(error, self.NAME)
+            except (ValueError, TypeError) as error:
+                tell_error(error, self.NAME)
+        for warning in told:
+            tell_warning(warning.message, self.NAME)
+        return 1
+
+    def _made(self, interpolant, size):
+        """What is made of the interpolant; ``size``: the diagonal of all processes' meshes."""
+        raise NotImplementedError
+
+    def _interpolant(self, vtu2contour, mesh):
+        """The interpolant of the input: the one that was made before, if all is as it was."""
+        array = self.GetInputArrayInformation(0)
+        options = {
+            **self._solution,
+            "scalars": array.Get(vtkDataObject.FIELD_NAME()) or None,
+            "parameters": parameters(self._parameters),
+            "gradient": None if self._gradient == AUTOMATIC else self._gradient,
+        }
+        if self._recover:
+            options["gradient"] = "recover"
+        key = (state_of(mesh), options)
+        if self._kept[0] != key:
+            self._kept = (None, None)  # the memory of the old one is free before the new one
+            self._kept = (key, vtu2contour.MeshInterpolant(mesh, **options))
+        return self._kept[1]
+
+
+@smproxy.filter(name="DEIContour", label="DEI Contour")
+@smhint.xml('<ShowInMenu category="DEI"/><Visibility replace_input="2"/>')
+@smproperty.xml(CONTOUR_PROPERTIES + SOLUTION_PROPERTIES + DRAWING_PROPERTIES)
+class DEIContour(SolutionFilter):
+    """Contours the cubics of the Differential Equation Interpolant."""
+
+    NAME = "DEI Contour"
+
+    def __init__(self):
+        super().__init__("vtkPolyData")
+        self._values = []
+        self._drawing = {"normals": True, "double": None}
 
     def SetInterpolant(self, number):
         self._choose(self._solution, "interpolant", INTERPOLANTS[number])
@@ -200,26 +298,7 @@ class DEIContour(VTKPythonAlgorithmBase):
     def SetOutputPointsPrecision(self, number):
         self._choose(self._drawing, "double", None if number == AS_INPUT else bool(number))
 
-    def _change(self, name, value):
-        if getattr(self, name) != value:
-            setattr(self, name, value)
-            self.Modified()
-
-    def _choose(self, options, name, value):
-        if options.get(name) != value:
-            options[name] = value
-            self.Modified()
-
     # the pipeline
-
-    def FillInputPortInformation(self, port, info):
-        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
-        info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
-        return 1
-
-    def FillOutputPortInformation(self, port, info):
-        info.Set(vtkDataObject.DATA_TYPE_NAME(), "vtkDataObject")
-        return 1
 
     def RequestDataObject(self, request, inputs, outputs):
         """The output is a mesh of blocks if the input is."""
@@ -230,56 +309,116 @@ class DEIContour(VTKPythonAlgorithmBase):
             outputs.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), wanted)
         return 1
 
-    def RequestUpdateExtent(self, request, inputs, outputs):
-        """Cells of neighbouring processes are wanted: gradients are recovered with them."""
-        levels = vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_GHOST_LEVELS()
-        info = inputs[0].GetInformationObject(0)
-        info.Set(levels, max(info.Get(levels), 1))
-        return 1
+    def _made(self, interpolant, size):
+        return interpolant.contour(self._values, size=size, **self._drawing)
 
-    def RequestData(self, request, inputs, outputs):
+
+MONITOR_PROPERTIES = """
+<InputProperty name="Input" command="SetInputConnection">
+  <ProxyGroupDomain name="groups"><Group name="sources"/><Group name="filters"/></ProxyGroupDomain>
+  <DataTypeDomain name="input_type"><DataType value="vtkDataSet"/></DataTypeDomain>
+  <InputArrayDomain name="input_array" attribute_type="point" number_of_components="1"/>
+  <Documentation>The mesh. Its solids are judged, or if it has none its two-dimensional cells.
+    Meshes of blocks are judged block by block.</Documentation>
+</InputProperty>
+<StringVectorProperty name="Solution" label="Solution"
+    command="SetInputArrayToProcess" number_of_elements="5" element_types="0 0 0 0 2"
+    animateable="0">
+  <ArrayListDomain name="array_list" attribute_type="Scalars" input_domain_name="input_array">
+    <RequiredProperties><Property name="Input" function="Input"/></RequiredProperties>
+  </ArrayListDomain>
+  <Documentation>The point array whose cubics are judged.</Documentation>
+</StringVectorProperty>
+<IntVectorProperty name="Monitor" command="SetMonitor" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Defect"/><Entry value="1" text="Surface area"/>
+    <Entry value="2" text="Stepwise error"/><Entry value="3" text="Interpolation error"/>
+  </EnumerationDomain>
+  <Documentation>The number of each cell. Defect: how far the cubic is from satisfying the PDE,
+    integrated over the cell. Surface area: that of the cubic's graph. Stepwise error: the mean
+    difference to the cubics on the mesh with every edge halved. Interpolation error: the mean
+    difference to the second interpolant.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="Second" label="Second Interpolant" command="SetSecond"
+    number_of_elements="1" default_values="0" panel_visibility="advanced">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="By what is known"/><Entry value="1" text="Pure quartic (PQI)"/>
+    <Entry value="2" text="Full quartic (FQI)"/><Entry value="3" text="Pure tri-cubic (p3)"/>
+    <Entry value="4" text="Quadratic precision"/><Entry value="5" text="Linear"/>
+  </EnumerationDomain>
+  <Documentation>What the interpolation error compares the cubics with. Quartics are on triangles,
+    the tri-cubic in tetrahedra; these three need the PDE.</Documentation>
+</IntVectorProperty>
+<IntVectorProperty name="Select" command="SetSelect" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="None"/><Entry value="1" text="Above N times the average"/>
+    <Entry value="2" text="The part N of the cells"/>
+    <Entry value="3" text="The fewest with the part N of the sum"/>
+    <Entry value="4" text="Above N"/>
+  </EnumerationDomain>
+  <Documentation>Which cells are marked, in a cell array of its own: 1 for those, 0 for others. DEI
+    Refine takes it. N is the number below.</Documentation>
+</IntVectorProperty>
+<DoubleVectorProperty name="Number" label="N" command="SetNumber" number_of_elements="1"
+    default_values="2">
+  <DoubleRangeDomain name="range" min="0"/>
+  <Documentation>A factor, a part between 0 and 1, or a number in the unit of the
+    monitor.</Documentation>
+</DoubleVectorProperty>
+<IntVectorProperty name="RandomSamples" label="Random Samples" command="SetRandomSamples"
+    number_of_elements="1" default_values="0" panel_visibility="advanced">
+  <IntRangeDomain name="range" min="0" max="65535"/>
+  <Documentation>So many random points of each cell are looked at; 0: fixed ones, which are mirrored
+    with the cell.</Documentation>
+</IntVectorProperty>
+"""
+
+MONITORS = ("defect", "area", "stepwise", "interpolation")
+SECONDS = (None, "pqi", "fqi", "p3", "quadratic-precision", "linear")
+
+
+@smproxy.filter(name="DEIMonitor", label="DEI Monitor")
+@smhint.xml('<ShowInMenu category="DEI"/>')
+@smproperty.xml(MONITOR_PROPERTIES + SOLUTION_PROPERTIES)
+class DEIMonitor(SolutionFilter):
+    """Says how much each cell needs to be refined, as a cell array."""
+
+    NAME = "DEI Monitor"
+
+    def __init__(self):
+        super().__init__("vtkDataSet")
+        self._options = {"kind": MONITORS[0]}
+        self._selection = 0
+        self._number = 2.0
+
+    def SetMonitor(self, number):
+        self._choose(self._options, "kind", MONITORS[number])
+
+    def SetSecond(self, number):
+        self._choose(self._options, "second", SECONDS[number])
+
+    def SetSelect(self, number):
+        self._change("_selection", number)
+
+    def SetNumber(self, number):
+        self._change("_number", number)
+
+    def SetRandomSamples(self, count):
+        self._choose(self._options, "samples", count or None)
+
+    def RequestDataObject(self, request, inputs, outputs):
+        """The output is what the input is."""
         mesh = vtkDataObject.GetData(inputs[0], 0)
         output = vtkDataObject.GetData(outputs, 0)
-        output.Initialize()
-        try:
-            import vtu2contour
-        except ImportError as error:
-            tell_error(f"{MISSING} ({error})")
-            return 1
-        size = diagonal_of_all(mesh)
-        if not has_cells(mesh):
-            return 1  # another process has them
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter("ignore")
-            warnings.simplefilter("always", UserWarning)
-            try:
-                made = self._interpolant(vtu2contour, mesh)
-                output.ShallowCopy(made.contour(self._values, size=size, **self._drawing))
-            except vtu2contour.NothingToContourError as error:
-                if processes() == 1:
-                    tell_error(error)
-            except (ValueError, TypeError) as error:
-                tell_error(error)
-        for warning in told:
-            tell_warning(warning.message)
+        if output is None or output.GetClassName() != mesh.GetClassName():
+            outputs.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), mesh.NewInstance())
         return 1
 
-    def _interpolant(self, vtu2contour, mesh):
-        """The interpolant of the input: the one that was made before, if all is as it was."""
-        array = self.GetInputArrayInformation(0)
-        options = {
-            **self._solution,
-            "scalars": array.Get(vtkDataObject.FIELD_NAME()) or None,
-            "parameters": parameters(self._parameters),
-            "gradient": None if self._gradient == AUTOMATIC else self._gradient,
-        }
-        if self._recover:
-            options["gradient"] = "recover"
-        key = (state_of(mesh), options)
-        if self._kept[0] != key:
-            self._kept = (None, None)  # the memory of the old one is free before the new one
-            self._kept = (key, vtu2contour.MeshInterpolant(mesh, **options))
-        return self._kept[1]
+    def _made(self, interpolant, size):
+        select = None
+        if self._selection > 0:
+            select = f"{SELECTIONS[self._selection - 1]}:{self._number!r}"
+        return interpolant.monitor(select=select, **self._options)
 
 
 REFINE_PROPERTIES = """
@@ -362,7 +501,6 @@ REFINE_PROPERTIES = """
 </StringVectorProperty>
 """
 
-SELECTIONS = ("average", "fraction", "bulk", "tolerance")
 DIVISIONS = ("bisect", "newest-vertex", "red-green", "centroid", "delaunay")
 SMOOTHINGS = (None, "laplacian", "optimised")
 
@@ -534,11 +672,11 @@ def diagonal_of_all(mesh):
 CORNERS = [(1, 1), (3, 1), (5, 1), (0, -1), (2, -1), (4, -1)]
 
 
-def tell_error(text, name="DEI Contour"):
+def tell_error(text, name):
     """An error in ParaView's output messages, of the filter of that name."""
     vtkOutputWindow.GetInstance().DisplayErrorText(f"{name}: {text}\n")
 
 
-def tell_warning(text, name="DEI Contour"):
+def tell_warning(text, name):
     """A warning in ParaView's output messages, of the filter of that name."""
     vtkOutputWindow.GetInstance().DisplayWarningText(f"{name}: {text}\n")

@@ -334,3 +334,42 @@ def test_files_are_refined_as_by_the_module(installed, tmp_path):
         for array in ("eta", "number", "OriginalCellIds"):
             assert np.array_equal(found.cell_data[array], expected.cell_data[array]), name
     assert text.count("DEI Refine: ") == 1 and "DEI Refine: pde: " in text
+
+
+def test_files_are_judged_as_by_the_module(installed, tmp_path):
+    grid, file = solid(n=3), tmp_path / "mesh.vtu"
+    grid.save(file)
+    pv.MultiBlock([grid, with_arrays(grid, "other")]).save(tmp_path / "blocks.vtm")
+    pde = "uxx + uyy + uzz = -14*u"
+    wanted = {
+        "defect": ({"PDE": pde, "Select": 1, "Number": 1.5}, {"pde": pde, "select": "average:1.5"}),
+        "area": ({"Monitor": 1, "RandomSamples": 5}, {"samples": 5}),
+        "stepwise": ({"Monitor": 2, "Select": 3, "Number": 0.5}, {"select": "bulk:0.5"}),
+        "interpolation": ({"Monitor": 3, "Second": 5}, {"second": "linear"}),
+        "missing": ({}, None),
+    }
+    always = {"Solution": ["POINTS", "u"]}
+    jobs = [
+        {"output": str(tmp_path / f"{name}.vtu"), "properties": {**always, **properties}}
+        for name, (properties, _) in wanted.items()
+    ]
+    blocks = {"file": str(tmp_path / "blocks.vtm"), "output": str(tmp_path / "out.vtm")}
+    jobs.append({**blocks, "properties": {**always, "Monitor": 1}})
+    (tmp_path / "jobs.json").write_text(json.dumps(jobs))
+    script = [SCRIPTS / "monitor_file.py", plugin(installed), file, tmp_path / "jobs.json"]
+    text = run(installed, ["pvpython", *script])
+    for name, (_, options) in wanted.items():
+        found = pv.read(tmp_path / f"{name}.vtu")
+        if options is None:
+            assert found.n_points == 0
+            continue
+        expected = vc.monitor(pv.read(file), name, scalars="u", **options)
+        assert sorted(found.cell_data) == sorted(expected.cell_data)
+        for array in expected.cell_data:
+            assert np.array_equal(found.cell_data[array], expected.cell_data[array]), name
+        assert np.array_equal(found.point_data["grad_u"], grid["grad_u"])
+    assert text.count("DEI Monitor: ") == 1 and "needs the PDE" in text
+    judged = pv.read(tmp_path / "out.vtm")
+    area = vc.monitor(grid, "area", scalars="u")["AreaMonitor"]
+    assert np.array_equal(judged[0].cell_data["AreaMonitor"], area)
+    assert "AreaMonitor" not in judged[1].cell_data

@@ -78,6 +78,14 @@ def poly_data(parts: dict[str, Any]) -> Any:
     return data
 
 
+def with_cell_arrays(mesh: Any, arrays: dict[str, np.ndarray]) -> Any:
+    """A copy of a mesh with further cell arrays; it shares all others with the mesh."""
+    copy = mesh.NewInstance()
+    copy.ShallowCopy(mesh)
+    _put(copy.GetCellData(), [(name, values, []) for name, values in arrays.items()], [])
+    return copy
+
+
 def unstructured_grid(parts: dict[str, Any]) -> Any:
     """A ``vtkUnstructuredGrid`` of arrays."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -91,14 +99,6 @@ def unstructured_grid(parts: dict[str, Any]) -> Any:
     grid.SetCells(types, _cells(*parts["cells"]))
     _put_data(grid, parts)
     return grid
-
-
-def with_cell_arrays(mesh: Any, arrays: dict[str, np.ndarray]) -> Any:
-    """A copy of a mesh with further cell arrays; it shares all others with the mesh."""
-    copy = mesh.NewInstance()
-    copy.ShallowCopy(mesh)
-    _put(copy.GetCellData(), [(name, values, []) for name, values in arrays.items()], [])
-    return copy
 
 
 def _as_grid(mesh: Any) -> Any:

@@ -224,20 +224,30 @@ impl Method {
         mesh
     }
 
-    /// One step of refinement: what is above twice the average, or if nothing is, above it.
+    /// One step of refinement.
     pub fn step(
         self,
         mesh: &TriangleMesh,
         problem: &Problem,
         max_points: usize,
     ) -> TriangleMesh<'static> {
-        let monitor = self.monitor(mesh, problem);
-        let selected = Selection::AboveAverage(2.0).select_some(&monitor).unwrap();
-        let marks = Marks { max_points, ..Marks::all(&selected) };
-        let refined = delaunay(mesh, &marks, &DelaunayOptions::default()).unwrap();
-        assert!(refined.points.len() > mesh.points().len(), "no step is made");
-        TriangleMesh::new(refined.points, refined.cells).unwrap()
+        step_by(&self.monitor(mesh, problem), mesh, max_points)
     }
+}
+
+/// One step of refinement: what is above twice the average, or if nothing is, above it.
+pub fn step_by(monitor: &[f64], mesh: &TriangleMesh, max_points: usize) -> TriangleMesh<'static> {
+    let selected = Selection::AboveAverage(2.0).select_some(monitor).unwrap();
+    let marks = Marks { max_points, ..Marks::all(&selected) };
+    let refined = delaunay(mesh, &marks, &DelaunayOptions::default()).unwrap();
+    assert!(refined.points.len() > mesh.points().len(), "no step is made");
+    TriangleMesh::new(refined.points, refined.cells).unwrap()
+}
+
+/// The area of the PCI's graph; the thesis' is that of the PQI's.
+pub fn area_of_pci(mesh: &TriangleMesh, problem: &Problem) -> Vec<f64> {
+    let data = Data::new(mesh, problem);
+    surface_area(&Pci::with_pde(mesh, data.field(), &problem.equation()), SamplePoints::Fixed)
 }
 
 /// Squares along a side of the mesh that all begin with.

@@ -37,6 +37,9 @@ pub struct ArrayInterpolant {
     locators: OnceLock<Locators>,
 }
 
+/// A PDE, its parameters, and the arrays that it may name.
+type GivenPde = (String, Vec<(String, f64)>, Vec<(String, Vec<f64>)>);
+
 /// Points, cells, values and gradients.
 struct Arrays {
     points: Py<PyArray2<f64>>,
@@ -241,7 +244,7 @@ impl ArrayInterpolant {
         &self,
         py: Python<'py>,
         choice: MonitorChoice,
-        pde: Option<(String, Vec<(String, f64)>, Vec<(String, Vec<f64>)>)>,
+        pde: Option<GivenPde>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let options = choice.options()?;
         let monitored = self.with(py, |interpolant| {

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vtu2contour::filter::{Monitor, MonitorOptions, Monitored, SecondInterpolant};
-use vtu2contour::monitor::{SamplePoints, Selection};
+use vtu2contour::monitor::SamplePoints;
 
 use super::arrays::to_python;
 use super::error::in_python;

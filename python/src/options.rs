@@ -123,7 +123,8 @@ impl DrawingOptions {
 /// # Errors
 /// `ValueError` for a word that is none of those to choose from.
 pub fn selection((how, number): (String, f64)) -> PyResult<Selection> {
-    let selections: [(&str, fn(f64) -> Selection); 4] = [
+    type By = fn(f64) -> Selection;
+    let selections: [(&str, By); 4] = [
         ("average", Selection::AboveAverage),
         ("fraction", Selection::Fraction),
         ("bulk", Selection::Bulk),

@@ -2,16 +2,19 @@
 
 mod support;
 
+use std::collections::{HashMap, HashSet};
+
 use support::checked::is_symmetric;
 use support::meshes::{Random, symmetric_grid};
 use support::reference::{BETA, Reference, reference};
 use support::table_5_1::{MEMBERS, Member, Points, THESIS, Way};
 use support::tables_of_refinement::{
-    METHODS, Method, TABLES as REFINED, area_of_pci, problem, rows, step_by,
+    METHODS, Method, TABLES as REFINED, area_of_pci, problem, rows,
 };
 use support::tables_of_surfaces::TABLES;
 use support::{table_5_1, table_5_3, table_5_7};
 use vtu2contour::mesh::{TriangleMesh, Vector};
+use vtu2contour::monitor::Selection;
 
 #[test]
 fn table_5_7() {
@@ -183,7 +186,8 @@ fn tables_5_12_and_5_13() {
     }
 }
 
-/// Figure 5.29: with fixed sample points, from a symmetric mesh, the mesh stays symmetric.
+/// Figure 5.29: with fixed sample points, mirrored cells of a symmetric mesh have the same number,
+/// and both are selected or none.
 #[test]
 fn figure_5_29() {
     let problem = problem(2);
@@ -193,11 +197,33 @@ fn figure_5_29() {
         Method::SurfaceArea => area_of_pci(mesh, &problem),
         _ => method.monitor(mesh, &problem),
     };
-    for method in [Method::SurfaceArea, Method::Defect, Method::Stepwise] {
-        let mut mesh = symmetric_grid(6);
-        while mesh.points().len() < 1000 {
-            mesh = step_by(&of(method, &mesh), &mesh, usize::MAX);
-            assert!(is_symmetric(&mesh), "{method:?}, {} points", mesh.points().len());
+    for (method, side) in [Method::SurfaceArea, Method::Defect, Method::Stepwise]
+        .into_iter()
+        .flat_map(|method| [6, 10, 20].map(|side| (method, side)))
+    {
+        let mesh = symmetric_grid(side);
+        assert!(is_symmetric(&mesh));
+        let (numbers, images) = (of(method, &mesh), mirror_images(&mesh));
+        let selected: HashSet<u32> =
+            Selection::default().select_some(&numbers).unwrap().into_iter().collect();
+        assert!(!selected.is_empty() && selected.len() < images.len());
+        for (cell, &image) in images.iter().enumerate() {
+            let (one, other) = (numbers[cell], numbers[image as usize]);
+            assert!((one - other).abs() <= 1e-10 * one, "{method:?} {side}: {one} {other}");
+            let are_selected = [cell as u32, image].map(|cell| selected.contains(&cell));
+            assert_eq!(are_selected[0], are_selected[1], "{method:?} {side} {cell}");
         }
     }
+}
+
+/// For each cell of a mesh that is symmetric in x = 1/2 its mirror image.
+fn mirror_images(mesh: &TriangleMesh) -> Vec<u32> {
+    let middle = |cell: usize, is_mirrored: bool| {
+        let middle = mesh.corners(cell).iter().sum::<Vector>() / 3.0;
+        let x = if is_mirrored { 1.0 - middle.x } else { middle.x };
+        [x, middle.y].map(|x| (x * 1e7).round() as i64)
+    };
+    let cells = 0..mesh.triangles().len();
+    let at: HashMap<_, _> = cells.clone().map(|cell| (middle(cell, false), cell as u32)).collect();
+    cells.map(|cell| at[&middle(cell, true)]).collect()
 }

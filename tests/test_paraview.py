@@ -342,10 +342,10 @@ def test_files_are_judged_as_by_the_module(installed, tmp_path):
     pv.MultiBlock([grid, with_arrays(grid, "other")]).save(tmp_path / "blocks.vtm")
     pde = "uxx + uyy + uzz = -14*u"
     wanted = {
-        "defect": ({"PDE": pde, "Select": 1, "Number": 1.5}, {"pde": pde, "select": "average:1.5"}),
+        "defect": ({"PDE": pde, "Select": 1, "N": 1.5}, {"pde": pde, "select": "average:1.5"}),
         "area": ({"Monitor": 1, "RandomSamples": 5}, {"samples": 5}),
-        "stepwise": ({"Monitor": 2, "Select": 3, "Number": 0.5}, {"select": "bulk:0.5"}),
-        "interpolation": ({"Monitor": 3, "Second": 5}, {"second": "linear"}),
+        "stepwise": ({"Monitor": 2, "Select": 3, "N": 0.5}, {"select": "bulk:0.5"}),
+        "interpolation": ({"Monitor": 3, "SecondInterpolant": 5}, {"second": "linear"}),
         "missing": ({}, None),
     }
     always = {"Solution": ["POINTS", "u"]}

@@ -236,7 +236,7 @@ impl Method {
 }
 
 /// One step of refinement: what is above twice the average, or if nothing is, above it.
-pub fn step_by(monitor: &[f64], mesh: &TriangleMesh, max_points: usize) -> TriangleMesh<'static> {
+fn step_by(monitor: &[f64], mesh: &TriangleMesh, max_points: usize) -> TriangleMesh<'static> {
     let selected = Selection::AboveAverage(2.0).select_some(monitor).unwrap();
     let marks = Marks { max_points, ..Marks::all(&selected) };
     let refined = delaunay(mesh, &marks, &DelaunayOptions::default()).unwrap();

@@ -26,6 +26,8 @@ const ARGUMENTS: [(&str, &str); 17] = [
     ("leave --gradient out", "leave gradient out"),
     ("--gradient", "gradient"),
     ("give --pde EQUATION", "give pde=EQUATION"),
+    ("--select", "select"),
+    ("leave --interpolant out", "leave interpolant out"),
     ("--pde", "pde"),
     ("give --param ", "give parameters "),
     ("--tolerance, --nside and --triangles", "tolerance, nside and triangles"),

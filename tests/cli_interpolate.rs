@@ -201,6 +201,82 @@ fn on_regular_points() {
     }
 }
 
+/// Every member of the family that holds cubics finds this one, on triangles, on quads that are
+/// rectangles, and in tetrahedra.
+#[test]
+fn members_of_the_family() {
+    let flat = ["dei", "adei", "dei3-13", "dei3-15", "pqi", "fqi"].map(|name| (name, 2));
+    for (name, dimension) in flat.into_iter().chain([("p3", 3)]) {
+        let (grid, pde) = if dimension == 2 { (square(), PLANE_PDE) } else { (bar(), PDE) };
+        let bench = bench(&grid);
+        let job = ["interpolate", "in.vtu", "-o", "out.vtu", "-a", "u", "--pde", pde];
+        bench.succeed(&[&job[..], &["--subdivide", "3", "--family", name]].concat());
+        let fine = read(&bench, "out.vtu");
+        check(&points_of(&fine.points), &fine.point_data, dimension);
+    }
+    // a triquadratic has no unique polynomial in cells with an edge along an axis
+    let bench = bench(&bar());
+    for name in ["p2", "p2-hat"] {
+        let job = ["interpolate", "in.vtu", "-o", "out.vtu", "-a", "u", "--pde", PDE];
+        let said = bench.succeed(&[&job[..], &["--subdivide", "3", "--family", name]].concat());
+        assert!(said.contains("12 triangles or tetrahedra could not use the PDE"), "{said}");
+    }
+}
+
+/// Rectangles have a bicubic each, which fit together along sides; halved they do not.
+#[test]
+fn rectangles_have_bicubics() {
+    let quads: [(u8, &[i64]); 4] =
+        [(9, &[0, 1, 4, 3]), (8, &[1, 2, 4, 5]), (8, &[3, 4, 6, 7]), (9, &[5, 8, 7, 4])];
+    let triangles = [[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 5, 4]];
+    let triangles: Vec<(u8, &[i64])> = triangles.iter().map(|c| (5, &c[..])).collect();
+    let jumps = [&quads[..], &triangles].map(|cells| {
+        let mut grid = square_of(cells);
+        let points = points_of(&grid.points);
+        let harmonic = points.iter().map(|[x, y, _]| (3.0 * x).exp() * (3.0 * y).sin());
+        grid.point_data.push(DataArray::new("u", 1, harmonic.collect::<Vec<f64>>()));
+        let slope = |[x, y, _]: &[f64; 3]| {
+            let size = 3.0 * (3.0 * x).exp();
+            [size * (3.0 * y).sin(), size * (3.0 * y).cos(), 0.0]
+        };
+        let slopes: Vec<f64> = points.iter().flat_map(slope).collect();
+        grid.point_data.push(DataArray::new("grad_u", 3, slopes));
+        let bench = bench(&grid);
+        // on both sides of a side of two cells, and of a diagonal
+        let text = "0.4999999,0.2\n0.5000001,0.2\n0.1,0.1000001\n0.1000001,0.1\n";
+        fs::write(bench.path("at.csv"), text).unwrap();
+        let job = ["interpolate", "in.vtu", "-o", "out.vtp", "-a", "u", "--pde", "uxx + uyy = 0"];
+        bench.succeed(&[&job[..], &["--at", "at.csv", "--family", "dei"]].concat());
+        let file = VtpFile::open(bench.path("out.vtp")).unwrap();
+        let values = numbers(&file.read(&Selection::All).unwrap().data.point_data, "u");
+        [values[1] - values[0], values[3] - values[2]].map(f64::abs)
+    });
+    // slopes times the distance of the points
+    assert!(jumps[0].iter().all(|jump| *jump < 1e-5), "{jumps:?}");
+    assert!(jumps[1].iter().all(|jump| *jump > 1e-3), "{jumps:?}");
+}
+
+/// Points of discontinuous elements are one if that is asked for, as for contours.
+#[test]
+fn points_are_merged() {
+    let apart = |cells: &[[f64; 6]]| {
+        let points = cells.iter().flatten().copied().collect::<Vec<f64>>();
+        let points = points.as_chunks::<2>().0.iter().flat_map(|[x, y]| [*x, *y, 0.0]);
+        let points = DataArray::new("Points", 3, points.collect::<Vec<f64>>());
+        let mut grid = UnstructuredGrid::new(points);
+        for n in 0..cells.len() as i64 {
+            grid.push_cell(5, &[3 * n, 3 * n + 1, 3 * n + 2]);
+        }
+        with_data(grid)
+    };
+    let bench = bench(&apart(&[[0.0, 0.0, 1.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 1.0, 0.0, 1.0]]));
+    let job = ["interpolate", "in.vtu", "-o", "out.vtu", "-a", "u", "--subdivide", "2"];
+    for (more, points) in [(&[][..], 12), (&["--merge-points"][..], 9)] {
+        bench.succeed(&[&job[..], more].concat());
+        assert_eq!(points_of(&read(&bench, "out.vtu").points).len(), points);
+    }
+}
+
 /// A domain with holes: what is outside is counted, the same for any number of threads.
 #[test]
 fn points_in_holes_are_counted() {
@@ -246,5 +322,14 @@ fn what_is_wrong_is_told() {
     assert!(fail(1, &["out.vtp", "--subdivide", "2"]).contains("a refined mesh is a .vtu"));
     assert!(fail(1, &["out.csv", "--at", "bad.csv"]).contains("'one' is no number"));
     assert!(fail(1, &["out.csv", "--at", "none.csv"]).contains("none.csv"));
+    // a member of the family needs a PDE, its own kind of cells, and a given fineness
+    let member = |name, more: &[&'static str]| [&["out.vtu", "--family", name][..], more].concat();
+    assert!(fail(2, &member("dei", &["--subdivide", "2"])).contains("--pde"));
+    let pde = ["--pde", PLANE_PDE, "--subdivide", "2"];
+    let said = fail(1, &member("p3", &pde));
+    assert!(said.contains("no interpolant 'p3' on two-dimensional cells: choose one of dei, adei"));
+    assert!(fail(2, &member("cubic", &pde)).contains("[possible values: dei, adei"));
+    let finer = ["--pde", PLANE_PDE, "--tolerance", "1e-3"];
+    assert!(fail(2, &member("dei", &finer)).contains("cannot be used with"));
     assert!(!bench.path("out.vtu").exists() && !bench.path("out.csv").exists());
 }

@@ -367,7 +367,7 @@ fn what_is_wrong_is_told() {
     let fqi = ["out.vtu", "-m", "interpolation", "--second", "fqi"];
     assert!(fail(1, &fqi).contains("'fqi' needs the PDE"));
     let p3 = ["out.vtu", "-m", "interpolation", "--second", "p3", "--pde", "uxx + uyy = 0"];
-    assert!(fail(1, &p3).contains("no second interpolant 'p3' on two-dimensional cells"));
+    assert!(fail(1, &p3).contains("no interpolant 'p3' on two-dimensional cells"));
     let linear = ["out.vtu", "-m", "stepwise", "--interpolant", "linear"];
     assert!(fail(1, &linear).contains("choose the monitor 'area'"));
     let itself = ["quadratic-precision"; 2];

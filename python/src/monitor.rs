@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vtu2contour::filter::{Monitor, MonitorOptions, Monitored, SecondInterpolant};
+use vtu2contour::filter::{FamilyMember, Monitor, MonitorOptions, Monitored, SecondInterpolant};
 use vtu2contour::monitor::SamplePoints;
 
 use super::arrays::to_python;
@@ -29,9 +29,9 @@ impl MonitorChoice {
     /// `ValueError` for a word that is none of those to choose from.
     pub fn options(self) -> PyResult<MonitorOptions> {
         let seconds = [
-            SecondInterpolant::Pqi,
-            SecondInterpolant::Fqi,
-            SecondInterpolant::P3,
+            SecondInterpolant::Member(FamilyMember::Pqi),
+            SecondInterpolant::Member(FamilyMember::Fqi),
+            SecondInterpolant::Member(FamilyMember::P3),
             SecondInterpolant::QuadraticPrecision,
             SecondInterpolant::Linear,
         ];

@@ -73,7 +73,7 @@ fn interpolate(
     let mut out = AtomicFile::create(&arguments.output)?;
     let grid = input.read(part, Arrays::All)?.data;
     messages.stage("interpolating");
-    let (options, write_options) = (arguments.options(), arguments.write_options());
+    let (options, write_options) = (arguments.sample_options(), arguments.write_options());
     let explained = |error| input.explained(part, &error);
     let sampled = if let Some(file) = &arguments.at {
         let there = Points::read(file)?;

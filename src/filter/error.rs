@@ -137,8 +137,14 @@ pub enum FilterError {
     #[error("{what} needs the PDE: give --pde EQUATION, such as 'uxx + uyy = -k*u'")]
     NeedsPde { what: String },
 
-    #[error("there is no second interpolant '{name}' on {cells} cells: choose one of {others}")]
+    #[error("there is no interpolant '{name}' on {cells} cells: choose one of {others}")]
     NotOnCells { name: &'static str, cells: &'static str, others: &'static str },
+
+    #[error(
+        "a tolerance is kept by interpolants that are continuous, and '{name}' is not: say by \
+         --subdivide into how many parts edges are divided"
+    )]
+    NotContinuous { name: &'static str },
 
     #[error(
         "the second interpolant '{name}' is the interpolant itself: choose another, or leave --interpolant out"

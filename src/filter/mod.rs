@@ -12,6 +12,7 @@ mod contour_filter;
 mod contours;
 mod error;
 mod evaluation;
+mod family_member;
 mod gradient_arrays;
 mod gradients;
 mod interpolant;
@@ -28,6 +29,7 @@ mod pde_warning;
 mod picture;
 mod preview;
 mod range_warning;
+mod rectangles;
 mod refined_grid;
 mod report;
 mod resample;
@@ -43,7 +45,8 @@ pub use chosen_array::{ChosenArray, Component};
 pub use contour_filter::{Contoured, Stage, contour, prepared};
 pub use contours::Contours;
 pub use error::FilterError;
-pub use evaluation::Locators;
+pub use evaluation::{Locators, Place};
+pub use family_member::FamilyMember;
 pub use gradients::{GradientOrigin, GradientSource, Gradients};
 pub use interpolant::Interpolant;
 pub use interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles};
@@ -60,6 +63,8 @@ pub use refined_grid::{
 };
 pub use report::Report;
 pub use resample::Stencil;
-pub use sampling::{Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide};
+pub use sampling::{
+    SampleOptions, Sampled, SubdividedGrid, Subdivision, sample, sample_image, subdivide,
+};
 pub use second_interpolant::SecondInterpolant;
 pub use solution::{Domain, Solution};

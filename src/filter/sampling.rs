@@ -6,19 +6,33 @@ use rayon::prelude::*;
 
 use super::contour_filter::prepared;
 use super::error::FilterError;
+use super::evaluation::{Locators, Place};
+use super::family_member::{FamilyMember, HasFamily, MemberPieces};
 use super::interpolant::Interpolant;
 use super::options::ContourOptions;
 use super::output::ORIGINAL_CELLS;
+use super::rectangles::Rectangles;
 use super::resample::{Stencil, interpolate, pick};
 use super::solution::{Domain, Solution};
 use crate::interpolant::{
-    Pieces, TetrahedronCubics, TriangleCubics, bent_edges_of_tetrahedron, bent_edges_of_triangle,
+    Equation, Pieces, TetrahedronCubics, TriangleCubics, bent_edges_of_tetrahedron,
+    bent_edges_of_triangle,
 };
-use crate::mesh::{PieceEdge, PointLocator, RefinedMesh, RefinedPiece, Vector};
+use crate::mesh::{PieceEdge, RefinedMesh, RefinedPiece, SimplexMesh, Vector};
 use crate::simplices::LeftOut;
 use crate::vtk::{
     AttributeKind, Attributes, DataArray, ImageGrid, PolyData, UnstructuredGrid, Values,
 };
+
+/// Which interpolant is sampled.
+#[derive(Clone, Debug, Default)]
+pub struct SampleOptions {
+    /// The solution, and which of the interpolants that can be contoured.
+    pub solution: ContourOptions,
+    /// Instead of that one a member of the family. It needs the PDE, and neighbours do not
+    /// agree: at a point that they share it is that of one of them.
+    pub family: Option<FamilyMember>,
+}
 
 /// Data at points.
 #[derive(Clone, Debug)]
@@ -62,12 +76,6 @@ pub struct SubdividedGrid {
 /// The cells that a refined grid has at most.
 const MOST_CELLS: usize = 50_000_000;
 
-/// Where a point is.
-enum Place {
-    Triangle(usize, [f64; 3]),
-    Tetrahedron(usize, [f64; 4]),
-}
-
 /// A value, a gradient, and the points around.
 type Sample = (f64, Vector, Stencil);
 
@@ -81,26 +89,26 @@ const OUTSIDE: Sample = (
 /// The interpolant of a grid at points: in a solid, else on a two-dimensional cell.
 ///
 /// # Errors
-/// If the grid has no interpolant, see [`FilterError`].
+/// If the grid has no such interpolant, see [`FilterError`].
 pub fn sample(
     grid: &UnstructuredGrid,
-    options: &ContourOptions,
+    options: &SampleOptions,
     points: &[Vector],
 ) -> Result<Sampled, FilterError> {
-    let grid = prepared(Cow::Borrowed(grid), options)?;
+    let grid = prepared(Cow::Borrowed(grid), &options.solution)?;
     Source::with(&grid, options, |source| Ok(source.sampled(points)))
 }
 
 /// The interpolant of a grid on regular points of the box around its cells.
 ///
 /// # Errors
-/// If the grid has no interpolant, see [`FilterError`].
+/// If the grid has no such interpolant, see [`FilterError`].
 pub fn sample_image(
     grid: &UnstructuredGrid,
-    options: &ContourOptions,
+    options: &SampleOptions,
     counts: [usize; 3],
 ) -> Result<(ImageGrid, Sampled), FilterError> {
-    let grid = prepared(Cow::Borrowed(grid), options)?;
+    let grid = prepared(Cow::Borrowed(grid), &options.solution)?;
     Source::with(&grid, options, |source| {
         let [low, high] = source.bounds();
         let spacing = [0, 1, 2].map(|axis| match counts[axis] {
@@ -126,13 +134,14 @@ pub fn sample_image(
 /// A grid refined, with the interpolant at its points.
 ///
 /// # Errors
-/// If the grid has no interpolant, see [`FilterError`], or would have too many cells.
+/// If the grid has no such interpolant, see [`FilterError`], or would have too many cells, or
+/// there is a tolerance for an interpolant that is not continuous.
 pub fn subdivide(
     grid: &UnstructuredGrid,
-    options: &ContourOptions,
+    options: &SampleOptions,
     subdivision: Subdivision,
 ) -> Result<SubdividedGrid, FilterError> {
-    let grid = prepared(Cow::Borrowed(grid), options)?;
+    let grid = prepared(Cow::Borrowed(grid), &options.solution)?;
     Source::with(&grid, options, |source| source.subdivided(subdivision))
 }
 
@@ -140,39 +149,105 @@ pub fn subdivide(
 struct Source<'a> {
     grid: &'a UnstructuredGrid,
     interpolant: &'a Interpolant<'a>,
-    triangles: Option<(&'a dyn TriangleCubics, &'a Domain<'a, 3>)>,
-    tetrahedra: Option<(&'a dyn TetrahedronCubics, &'a Domain<'a, 4>)>,
+    triangles: Option<OnCells<'a, dyn TriangleCubics + 'a, 3>>,
+    tetrahedra: Option<OnCells<'a, dyn TetrahedronCubics + 'a, 4>>,
+    family: Option<FamilyMember>,
+    singular: usize,
+}
+
+/// The interpolant on the cells of one dimension.
+struct OnCells<'a, Cubics: ?Sized, const CORNERS: usize> {
+    domain: &'a Domain<'a, CORNERS>,
+    cubics: &'a Cubics,
+    /// What is sampled instead of the cubics.
+    member: Option<MemberPieces<'a, CORNERS>>,
+}
+
+impl<'a, Cubics: Pieces<CORNERS> + ?Sized, const CORNERS: usize> OnCells<'a, Cubics, CORNERS> {
+    /// With the pieces that `make` makes of the chosen member of the family, if one is chosen.
+    fn new(
+        domain: &'a Domain<'a, CORNERS>,
+        cubics: &'a Cubics,
+        chosen: Option<&(FamilyMember, Equation)>,
+        make: impl FnOnce(FamilyMember, &Equation) -> Result<MemberPieces<'a, CORNERS>, FilterError>,
+    ) -> Result<Self, FilterError> {
+        let member = chosen.map(|(member, equation)| make(*member, equation)).transpose()?;
+        Ok(Self { domain, cubics, member })
+    }
+
+    fn sample(&self, cell: usize, at: [f64; CORNERS]) -> Sample {
+        let taylor = match &self.member {
+            Some(member) => member.pieces.taylor(cell, &at),
+            None => self.cubics.taylor(cell, &at),
+        };
+        let corners = self.domain.mesh.simplices()[cell];
+        let mut stencil = Stencil { points: [corners[0]; 4], weights: [0.0; 4] };
+        stencil.points[..CORNERS].copy_from_slice(&corners);
+        stencil.weights[..CORNERS].copy_from_slice(&at);
+        (taylor.value, taylor.gradient, stencil)
+    }
+
+    fn singular(&self) -> usize {
+        self.member.as_ref().map_or(0, |member| member.singular)
+    }
 }
 
 impl Source<'_> {
     /// What `job` makes of the interpolant of a grid.
     fn with<T>(
         grid: &UnstructuredGrid,
-        options: &ContourOptions,
+        options: &SampleOptions,
         job: impl FnOnce(&Source) -> Result<T, FilterError>,
     ) -> Result<T, FilterError> {
+        let SampleOptions { solution: options, family } = options;
         let interpolant = Interpolant::new(Solution::of_grid(grid, options)?, options)?;
-        let (flat, solid) = (interpolant.in_triangles(), interpolant.in_tetrahedra());
-        let triangles = flat.as_ref().map(|(cubics, _)| cubics.as_ref());
-        let tetrahedra = solid.as_ref().map(|(cubics, _)| cubics.as_ref());
-        job(&Source {
-            grid,
-            interpolant: &interpolant,
-            triangles: triangles.zip(interpolant.solution.triangles.as_ref()),
-            tetrahedra: tetrahedra.zip(interpolant.solution.tetrahedra.as_ref()),
-        })
+        let solution = &interpolant.solution;
+        let equation = solution.pde.as_ref().map(|known| known.equation(options.predictor));
+        let chosen = family.map(|family| -> Result<_, FilterError> {
+            let what = format!("the interpolant '{}'", family.name());
+            Ok((family, equation.ok_or(FilterError::NeedsPde { what })?))
+        });
+        let chosen = chosen.transpose()?;
+        let rectangles = match (&solution.triangles, family) {
+            (Some(domain), Some(FamilyMember::Dei)) => Rectangles::new(grid, domain)?,
+            _ => None,
+        };
+        let cubics = interpolant.in_triangles();
+        let triangles = cubics.as_ref().zip(solution.triangles.as_ref());
+        let triangles = triangles.map(|((cubics, _), domain)| {
+            let field = solution.field(domain);
+            OnCells::new(domain, cubics.as_ref(), chosen.as_ref(), |member, equation| {
+                match &rectangles {
+                    Some(rectangles) => rectangles.dei(&domain.mesh, field, equation),
+                    None => domain.mesh.member(member, field, equation),
+                }
+            })
+        });
+        let cubics = interpolant.in_tetrahedra();
+        let tetrahedra = cubics.as_ref().zip(solution.tetrahedra.as_ref());
+        let tetrahedra = tetrahedra.map(|((cubics, _), domain)| {
+            let field = solution.field(domain);
+            OnCells::new(domain, cubics.as_ref(), chosen.as_ref(), |member, equation| {
+                domain.mesh.member(member, field, equation)
+            })
+        });
+        let (triangles, tetrahedra) = (triangles.transpose()?, tetrahedra.transpose()?);
+        let singular = match family {
+            None => interpolant.interpolation.singular(),
+            Some(_) => {
+                triangles.as_ref().map_or(0, OnCells::singular)
+                    + tetrahedra.as_ref().map_or(0, OnCells::singular)
+            }
+        };
+        let (interpolant, family) = (&interpolant, *family);
+        job(&Source { grid, interpolant, triangles, tetrahedra, family, singular })
     }
 
     /// The box around all cells.
     fn bounds(&self) -> [Vector; 2] {
-        let flat = self.interpolant.solution.triangles.iter().flat_map(|domain| {
-            let corners = domain.mesh.simplices().iter().flatten();
-            corners.map(|&point| domain.mesh.points()[point as usize])
-        });
-        let solid = self.interpolant.solution.tetrahedra.iter().flat_map(|domain| {
-            let corners = domain.mesh.simplices().iter().flatten();
-            corners.map(|&point| domain.mesh.points()[point as usize])
-        });
+        let solution = &self.interpolant.solution;
+        let flat = solution.triangles.iter().flat_map(|domain| corners(&domain.mesh));
+        let solid = solution.tetrahedra.iter().flat_map(|domain| corners(&domain.mesh));
         let finite = flat.chain(solid).filter(|point| point.iter().all(|x| x.is_finite()));
         let ends = finite.fold(None, |ends: Option<[Vector; 2]>, point| {
             Some(ends.map_or([point; 2], |[low, high]| [low.inf(&point), high.sup(&point)]))
@@ -181,43 +256,19 @@ impl Source<'_> {
     }
 
     fn sampled(&self, points: &[Vector]) -> Sampled {
-        let in_solids = self.tetrahedra.map(|(_, domain)| PointLocator::new(&domain.mesh));
-        let on_surfaces = self.triangles.map(|(_, domain)| PointLocator::new(&domain.mesh));
-        let solid = |point: &Vector| -> Option<Place> {
-            let ((_, domain), locator) = (self.tetrahedra?, in_solids.as_ref()?);
-            let found = locator.locate(&domain.mesh, point, locator.forgiving_distance())?;
-            Some(Place::Tetrahedron(found.simplex, found.at))
-        };
-        let flat = |point: &Vector| -> Option<Place> {
-            let ((_, domain), locator) = (self.triangles?, on_surfaces.as_ref()?);
-            let found = locator.locate(&domain.mesh, point, locator.forgiving_distance())?;
-            Some(Place::Triangle(found.simplex, found.at))
-        };
-        let samples = points.par_iter().map(|point| {
-            let place = solid(point).or_else(|| flat(point));
-            place.map_or(OUTSIDE, |place| self.at(&place))
-        });
+        let solution = &self.interpolant.solution;
+        let locators = Locators::new(solution);
+        let samples = points
+            .par_iter()
+            .map(|point| locators.place(solution, point).map_or(OUTSIDE, |place| self.at(&place)));
         let samples: Vec<Sample> = samples.collect();
         self.with_data(&samples, true)
     }
 
     fn at(&self, place: &Place) -> Sample {
-        match (place, self.triangles, self.tetrahedra) {
-            (Place::Triangle(cell, at), Some((cubics, domain)), _) => {
-                let taylor = cubics.taylor(*cell, at);
-                let [a, b, c] = domain.mesh.simplices()[*cell];
-                let [i, j, k] = *at;
-                (
-                    taylor.value,
-                    taylor.gradient,
-                    Stencil { points: [a, b, c, c], weights: [i, j, k, 0.0] },
-                )
-            }
-            (Place::Tetrahedron(cell, at), _, Some((cubics, domain))) => {
-                let taylor = cubics.taylor(*cell, at);
-                let stencil = Stencil { points: domain.mesh.simplices()[*cell], weights: *at };
-                (taylor.value, taylor.gradient, stencil)
-            }
+        match (place, &self.triangles, &self.tetrahedra) {
+            (Place::Triangle(cell, at), Some(pieces), _) => pieces.sample(*cell, *at),
+            (Place::Tetrahedron(cell, at), _, Some(pieces)) => pieces.sample(*cell, *at),
             _ => OUTSIDE,
         }
     }
@@ -243,33 +294,32 @@ impl Source<'_> {
             data,
             label,
             outside: stencils.iter().filter(|stencil| !is_inside(stencil)).count(),
-            singular: self.interpolant.interpolation.singular(),
+            singular: self.singular,
             left_out: solution.left_out.clone(),
             warnings: self.interpolant.interpolation.warnings.clone(),
         }
     }
 
     fn subdivided(&self, subdivision: Subdivision) -> Result<SubdividedGrid, FilterError> {
-        let mut made = Made::default();
-        if let Some((cubics, domain)) = self.triangles {
-            let marked = |piece: &RefinedPiece<3>, points: &[Vector], tolerance: f64| {
-                bent_edges_of_triangle(
-                    &cubics.cubic(piece.parent as usize),
-                    piece,
-                    points,
-                    tolerance,
-                )
-            };
-            let place = |simplex, at| self.at(&Place::Triangle(simplex, at));
-            made.add(domain, subdivision, TRIANGLE, marked, place)?;
+        if let (Subdivision::Tolerance(_), Some(family)) = (subdivision, self.family) {
+            return Err(FilterError::NotContinuous { name: family.name() });
         }
-        if let Some((cubics, domain)) = self.tetrahedra {
+        let mut made = Made::default();
+        if let Some(pieces) = &self.triangles {
+            let marked = |piece: &RefinedPiece<3>, points: &[Vector], tolerance: f64| {
+                let cubic = pieces.cubics.cubic(piece.parent as usize);
+                bent_edges_of_triangle(&cubic, piece, points, tolerance)
+            };
+            let sample = |simplex, at| pieces.sample(simplex, at);
+            made.add(pieces.domain, subdivision, TRIANGLE, marked, sample)?;
+        }
+        if let Some(pieces) = &self.tetrahedra {
             let marked = |piece: &RefinedPiece<4>, points: &[Vector], tolerance: f64| {
-                let cubic = cubics.cubic(piece.parent as usize);
+                let cubic = pieces.cubics.cubic(piece.parent as usize);
                 bent_edges_of_tetrahedron(&cubic, piece, points, tolerance)
             };
-            let place = |simplex, at| self.at(&Place::Tetrahedron(simplex, at));
-            made.add(domain, subdivision, TETRAHEDRON, marked, place)?;
+            let sample = |simplex, at| pieces.sample(simplex, at);
+            made.add(pieces.domain, subdivision, TETRAHEDRON, marked, sample)?;
         }
         let from = self.grid;
         let sampled = self.with_data(&made.samples, false);
@@ -286,6 +336,13 @@ impl Source<'_> {
         grid.field_data = from.field_data.clone();
         Ok(SubdividedGrid { grid, is_fine: !made.is_coarse, sampled })
     }
+}
+
+/// The corners of all cells, as often as cells have them.
+fn corners<'a, const CORNERS: usize>(
+    mesh: &'a SimplexMesh<CORNERS>,
+) -> impl Iterator<Item = Vector> + 'a {
+    mesh.simplices().iter().flatten().map(|&point| mesh.points()[point as usize])
 }
 
 /// VTK's cell types.

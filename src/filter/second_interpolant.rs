@@ -1,22 +1,17 @@
 //! Interpolants of a field by their names, on triangles and in tetrahedra.
 
 use super::error::FilterError;
+use super::family_member::{FamilyMember, HasFamily};
 use super::options::InterpolantKind;
 use crate::field::Field;
-use crate::interpolant::family::spaces::{DEI4_15, FQI, P3};
-use crate::interpolant::family::{Dei, DeiOptions};
 use crate::interpolant::{Equation, Linear, Pci, Pieces, Tricubic};
 use crate::mesh::{TetrahedronMesh, TriangleMesh};
 
 /// What the interpolant is compared with, to see how wrong it may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SecondInterpolant {
-    /// The pure quartic on triangles, which satisfies the PDE at six points.
-    Pqi,
-    /// The full quartic on triangles, which satisfies the PDE at sixteen points.
-    Fqi,
-    /// The thesis' own tri-cubic in tetrahedra: each cell by itself, and the PDE at four points.
-    P3,
+    /// One that satisfies the PDE at several points of each cell.
+    Member(FamilyMember),
     /// The cubic of each cell by itself, without a PDE.
     QuadraticPrecision,
     /// The linear interpolant.
@@ -28,8 +23,8 @@ impl SecondInterpolant {
     /// known.
     pub(super) fn default_for(kind: InterpolantKind, has_pde: bool, corners: usize) -> Self {
         match (kind, has_pde) {
-            (InterpolantKind::Pci, true) if corners == 3 => Self::Fqi,
-            (InterpolantKind::Pci, true) => Self::P3,
+            (InterpolantKind::Pci, true) if corners == 3 => Self::Member(FamilyMember::Fqi),
+            (InterpolantKind::Pci, true) => Self::Member(FamilyMember::P3),
             (InterpolantKind::Pci, false) => Self::QuadraticPrecision,
             _ => Self::Linear,
         }
@@ -38,9 +33,7 @@ impl SecondInterpolant {
     /// Its name, as options have it.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Pqi => "pqi",
-            Self::Fqi => "fqi",
-            Self::P3 => "p3",
+            Self::Member(member) => member.name(),
             Self::QuadraticPrecision => "quadratic-precision",
             Self::Linear => "linear",
         }
@@ -51,7 +44,7 @@ impl SecondInterpolant {
 pub type AnyPieces<'a, const CORNERS: usize> = Box<dyn Pieces<CORNERS> + 'a>;
 
 /// Interpolants of a field on a mesh, by their names.
-pub trait NamedInterpolants<const CORNERS: usize> {
+pub trait NamedInterpolants<const CORNERS: usize>: HasFamily<CORNERS> {
     /// One of those that are contoured.
     fn interpolant<'a>(
         &'a self,
@@ -59,17 +52,6 @@ pub trait NamedInterpolants<const CORNERS: usize> {
         field: Field<'a>,
         equation: Option<&Equation>,
     ) -> AnyPieces<'a, CORNERS>;
-
-    /// One of those that satisfy the PDE at several points of each cell.
-    ///
-    /// # Errors
-    /// If there is none of that name on such cells.
-    fn collocated<'a>(
-        &'a self,
-        which: SecondInterpolant,
-        field: Field<'a>,
-        equation: &Equation,
-    ) -> Result<AnyPieces<'a, CORNERS>, FilterError>;
 
     /// The one that the interpolant is compared with.
     ///
@@ -84,10 +66,10 @@ pub trait NamedInterpolants<const CORNERS: usize> {
         let kind = match which {
             SecondInterpolant::QuadraticPrecision => InterpolantKind::QuadraticPrecision,
             SecondInterpolant::Linear => InterpolantKind::Linear,
-            _ => {
-                let what = format!("the second interpolant '{}'", which.name());
+            SecondInterpolant::Member(member) => {
+                let what = format!("the second interpolant '{}'", member.name());
                 let equation = equation.ok_or(FilterError::NeedsPde { what })?;
-                return self.collocated(which, field, equation);
+                return Ok(self.member(member, field, equation)?.pieces);
             }
         };
         Ok(self.interpolant(kind, field, None))
@@ -112,26 +94,6 @@ impl NamedInterpolants<3> for TriangleMesh<'_> {
             }
         }
     }
-
-    fn collocated<'a>(
-        &'a self,
-        which: SecondInterpolant,
-        field: Field<'a>,
-        equation: &Equation,
-    ) -> Result<AnyPieces<'a, 3>, FilterError> {
-        let options = DeiOptions::default();
-        match which {
-            SecondInterpolant::Pqi => {
-                Ok(Box::new(Dei::new(DEI4_15, self, field, equation, &options)))
-            }
-            SecondInterpolant::Fqi => Ok(Box::new(Dei::new(FQI, self, field, equation, &options))),
-            _ => Err(FilterError::NotOnCells {
-                name: which.name(),
-                cells: "two-dimensional",
-                others: "pqi, fqi",
-            }),
-        }
-    }
 }
 
 impl NamedInterpolants<4> for TetrahedronMesh<'_> {
@@ -150,20 +112,6 @@ impl NamedInterpolants<4> for TetrahedronMesh<'_> {
             (InterpolantKind::Pci, Some(equation)) => {
                 Box::new(Tricubic::with_pde(self, field, equation))
             }
-        }
-    }
-
-    fn collocated<'a>(
-        &'a self,
-        which: SecondInterpolant,
-        field: Field<'a>,
-        equation: &Equation,
-    ) -> Result<AnyPieces<'a, 4>, FilterError> {
-        match which {
-            SecondInterpolant::P3 => {
-                Ok(Box::new(Dei::new(P3, self, field, equation, &DeiOptions::default())))
-            }
-            _ => Err(FilterError::NotOnCells { name: which.name(), cells: "solid", others: "p3" }),
         }
     }
 }

@@ -54,6 +54,7 @@ impl Reference {
         let (values_x, modes_x) = diagonalised(&(&slopes + reaction), &mass);
         let (values_y, modes_y) = diagonalised(&slopes, &mass);
         let (along_x, along_y) = (modes_x.tr_mul(&load), modes_y.tr_mul(&whole));
+        // of the modes the slopes' matrices are one, those of values the eigenvalues
         let weights = DMatrix::from_fn(along_x.len(), along_y.len(), |i, j| {
             -along_x[i] * along_y[j] / (values_x[i] + values_y[j])
         });
@@ -76,10 +77,13 @@ impl Reference {
     }
 }
 
-/// Eigenvalues and eigenvectors of `K v = λ M v`, with `vᵀ M v = 1`.
+/// Eigenvalues and eigenvectors of `M v = μ K v`, with `vᵀ K v = 1`.
+///
+/// Not of `K v = λ M v`: the smooth modes have the largest `μ` and the smallest `λ`, and
+/// rounding is relative to the largest of all, for `λ` ten orders of magnitude above.
 fn diagonalised(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
-    let factor = mass.clone().cholesky().expect("the mass is positive").l();
-    let half = factor.solve_lower_triangular(stiffness).unwrap();
+    let factor = stiffness.clone().cholesky().expect("the slopes' matrix is positive").l();
+    let half = factor.solve_lower_triangular(mass).unwrap();
     let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
     let eigen = (0.5 * (&whole + whole.transpose())).symmetric_eigen();
     let modes = factor.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap();

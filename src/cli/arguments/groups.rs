@@ -13,7 +13,9 @@ use vtu2contour::vtk::{Floats, WriteOptions};
 use super::names::{
     EncodingName, Interpolant, MethodName, MonitorName, PredictorName, SecondInterpolantName,
 };
-use super::values::{Time, component, level, parameter, positive, range, samples, selection, time};
+use super::values::{
+    Time, component, level, not_negative, parameter, positive, range, samples, selection, time,
+};
 
 /// Which array.
 #[derive(Debug, Args)]
@@ -38,6 +40,14 @@ pub struct ScalarArguments {
     /// shape functions of quadratic cells, else recovered]
     #[arg(short, long, value_name = "NAME")]
     pub gradient: Option<String>,
+
+    /// Make points one that are no further apart than this, in the mesh's unit; 0 (or no
+    /// number) for points at exactly the same place, as discontinuous elements have them
+    #[arg(
+        long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0",
+        value_parser = not_negative
+    )]
+    pub merge_points: Option<f64>,
 }
 
 /// Which levels.
@@ -232,6 +242,7 @@ impl ScalarArguments {
             array: self.array.clone(),
             component: self.component,
             gradient,
+            merge_points: self.merge_points,
             ..ContourOptions::default()
         }
     }

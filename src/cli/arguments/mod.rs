@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use vtu2contour::filter::{ContourOptions, MarkedBy, MonitorOptions, RefineOptions};
+use vtu2contour::filter::{ContourOptions, MarkedBy, MonitorOptions, RefineOptions, SampleOptions};
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::WriteOptions;
 
@@ -162,6 +162,14 @@ pub struct InterpolateArguments {
     #[command(flatten)]
     pub interpolant: InterpolantArguments,
 
+    /// Instead of --interpolant a member of the thesis' family, which satisfies --pde at several
+    /// points of each cell, and jumps from cell to cell: to be compared, not to be contoured
+    #[arg(
+        long, value_name = "MEMBER", value_enum, help_heading = "Interpolant", requires = "pde",
+        conflicts_with_all = ["interpolant", "tolerance"]
+    )]
+    family: Option<names::FamilyMemberName>,
+
     /// Encoding of the arrays in VTK's files
     #[arg(
         long, value_name = "E", value_enum, default_value_t = names::EncodingName::Raw,
@@ -175,8 +183,9 @@ pub struct InterpolateArguments {
 
 impl InterpolateArguments {
     /// What the arguments say of the interpolant.
-    pub fn options(&self) -> ContourOptions {
-        self.interpolant.options(self.scalars.options())
+    pub fn sample_options(&self) -> SampleOptions {
+        let solution = self.interpolant.options(self.scalars.options());
+        SampleOptions { solution, family: self.family.map(Into::into) }
     }
 
     /// How files are written.
@@ -457,14 +466,6 @@ pub struct ContourArguments {
     #[command(flatten)]
     pub scalars: ScalarArguments,
 
-    /// Make points one that are no further apart than this, in the mesh's unit; 0 (or no
-    /// number) for points at exactly the same place, as discontinuous elements have them
-    #[arg(
-        long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0",
-        help_heading = "What to contour", value_parser = values::not_negative
-    )]
-    merge_points: Option<f64>,
-
     #[command(flatten)]
     pub levels: LevelArguments,
 
@@ -499,7 +500,6 @@ impl ContourArguments {
     pub fn options(&self) -> ContourOptions {
         let Self { levels, interpolant, lines, surfaces, output_options, .. } = self;
         ContourOptions {
-            merge_points: self.merge_points,
             levels: levels.levels(),
             method: lines.method.into(),
             spacing: lines.spacing,

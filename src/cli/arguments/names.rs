@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use vtu2contour::contour::lines::Method;
-use vtu2contour::filter::{InterpolantKind, RefineMethod, SecondInterpolant};
+use vtu2contour::filter::{FamilyMember, InterpolantKind, RefineMethod, SecondInterpolant};
 use vtu2contour::interpolant::Predictor;
 use vtu2contour::refine::{Smoothing, TriangleMethod};
 use vtu2contour::vtk::Encoding;
@@ -17,6 +17,32 @@ pub enum Interpolant {
     QuadraticPrecision,
     /// Linear, as VTK's own filter
     Linear,
+}
+
+/// Names of the members of the thesis' family.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FamilyMemberName {
+    /// The standard DEI: bicubic, --pde holds at seven points of a triangle; of a quad that is a
+    /// rectangle at four
+    Dei,
+    /// The same on triangles, with points searched in each
+    Adei,
+    /// Bicubic of total degree four on triangles: --pde holds at four points
+    #[value(name = "dei3-13")]
+    Dei3_13,
+    /// Bicubic of total degree five on triangles: --pde holds at six points
+    #[value(name = "dei3-15")]
+    Dei3_15,
+    /// The pure quartic on triangles: --pde holds at six points
+    Pqi,
+    /// The full quartic on triangles: --pde holds at sixteen points
+    Fqi,
+    /// The pure tri-cubic of each tetrahedron by itself: --pde holds at four points
+    P3,
+    /// The triquadratic in tetrahedra: --pde holds at eleven points
+    P2,
+    /// The triquadratic of total degree three in tetrahedra: --pde holds at the centre
+    P2Hat,
 }
 
 /// Names of the predictors.
@@ -114,11 +140,27 @@ pub enum SmoothingName {
 impl From<SecondInterpolantName> for SecondInterpolant {
     fn from(name: SecondInterpolantName) -> Self {
         match name {
-            SecondInterpolantName::Pqi => Self::Pqi,
-            SecondInterpolantName::Fqi => Self::Fqi,
-            SecondInterpolantName::P3 => Self::P3,
+            SecondInterpolantName::Pqi => Self::Member(FamilyMember::Pqi),
+            SecondInterpolantName::Fqi => Self::Member(FamilyMember::Fqi),
+            SecondInterpolantName::P3 => Self::Member(FamilyMember::P3),
             SecondInterpolantName::QuadraticPrecision => Self::QuadraticPrecision,
             SecondInterpolantName::Linear => Self::Linear,
+        }
+    }
+}
+
+impl From<FamilyMemberName> for FamilyMember {
+    fn from(name: FamilyMemberName) -> Self {
+        match name {
+            FamilyMemberName::Dei => Self::Dei,
+            FamilyMemberName::Adei => Self::Adei,
+            FamilyMemberName::Dei3_13 => Self::Dei3_13,
+            FamilyMemberName::Dei3_15 => Self::Dei3_15,
+            FamilyMemberName::Pqi => Self::Pqi,
+            FamilyMemberName::Fqi => Self::Fqi,
+            FamilyMemberName::P3 => Self::P3,
+            FamilyMemberName::P2 => Self::P2,
+            FamilyMemberName::P2Hat => Self::P2Hat,
         }
     }
 }

@@ -32,6 +32,11 @@ impl Shape {
         }
     }
 
+    /// Whether corners are those of a cell of this shape, which has a size.
+    pub fn is_shape_of(self, corners: &[Vector]) -> bool {
+        self.directions(corners).is_some()
+    }
+
     /// The directions of the cell's own coordinates, unit vectors; none if the cell is
     /// not what it should be, or has no size.
     pub(super) fn directions(self, corners: &[Vector]) -> Option<[Vector; 3]> {

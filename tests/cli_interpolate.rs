@@ -253,7 +253,8 @@ fn rectangles_have_bicubics() {
     });
     // slopes times the distance of the points
     assert!(jumps[0].iter().all(|jump| *jump < 1e-5), "{jumps:?}");
-    assert!(jumps[1].iter().all(|jump| *jump > 1e-3), "{jumps:?}");
+    // along an axis a bicubic is a cubic, which the ends determine
+    assert!(jumps[1][0] < 1e-5 && jumps[1][1] > 1e-3, "{jumps:?}");
 }
 
 /// Points of discontinuous elements are one if that is asked for, as for contours.

@@ -16,7 +16,7 @@ use vtu2contour::mesh::Vector;
 pub const BETA: f64 = 20.0;
 
 /// Degree of the polynomials on each element.
-const DEGREE: usize = 9;
+const DEGREE: usize = 11;
 
 /// Elements from each side to the middle, each so many times as long as the one before it.
 const ELEMENTS: usize = 10;

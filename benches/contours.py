@@ -1,17 +1,23 @@
 """Contours, ours and VTK's side by side: times, and errors beside times.
 
-Run with the module built for release, by `bash benches/run.sh`, or alone:
-`python benches/contours.py [--threads N] [--rounds N] [--size N]`. Prints a Markdown table: medians
-of seconds over the rounds, ours and theirs in turn in one process, and ours as a share of theirs.
+Run by `bash benches/run.sh`, which builds everything and passes its arguments on. Prints a Markdown
+table: medians of milliseconds over the rounds, ours and theirs in turn, and ours as a share of
+theirs.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
+import shutil
 import statistics
+import subprocess
+import sys
+import tempfile
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 
 def arguments() -> argparse.Namespace:
@@ -19,7 +25,12 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--size", type=int, default=1_000_000, help="cells of the large meshes")
+    parser.add_argument("--only", default=",".join(CASES), help="cases, of " + ", ".join(CASES))
+    parser.add_argument("--program", type=Path, help="the command vtu2contour, for the case files")
     return parser.parse_args()
+
+
+CASES = ("solids", "flat", "matplotlib", "equal", "files", "paraview")
 
 
 ARGUMENTS = arguments()
@@ -259,21 +270,134 @@ def vtk_at_equal_error() -> None:
     )
 
 
+VTK_PROGRAM = """
+import json, resource, sys, time
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLPolyDataWriter
+from vtkmodules.vtkFiltersCore import vtkContourFilter
+import vtkmodules.vtkCommonDataModel
+
+start = time.perf_counter()
+reader = vtkXMLUnstructuredGridReader()
+reader.SetFileName(sys.argv[1])
+contour = vtkContourFilter()
+contour.SetInputConnection(reader.GetOutputPort())
+contour.SetInputArrayToProcess(0, 0, 0, 0, "u")
+contour.FastModeOn()
+contour.SetComputeNormals(False)
+contour.SetValue(0, float(sys.argv[3]))
+writer = vtkXMLPolyDataWriter()
+writer.SetInputConnection(contour.GetOutputPort())
+writer.SetFileName(sys.argv[2])
+writer.SetDataModeToAppended()
+writer.EncodeAppendedDataOff()
+writer.SetCompressor(None)
+assert writer.Write() == 1
+seconds = time.perf_counter() - start
+print(json.dumps([seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024]))
+"""
+
+# starts the command, and tells its time from start to end and its memory
+OUR_PROGRAM = """
+import json, resource, subprocess, sys, time
+start = time.perf_counter()
+subprocess.run(sys.argv[1:], check=True)
+seconds = time.perf_counter() - start
+print(json.dumps([seconds, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024]))
+"""
+
+
+def file_to_file() -> None:
+    """The command beside a script of VTK that reads, contours and writes: raw appended files. VTK's
+    time is without loading Python and VTK, ours is all of the command's.
+    """
+    if ARGUMENTS.program is None:
+        return
+    points, cells = cube(round((ARGUMENTS.size / 6) ** (1 / 3)))
+    u, grad = waves(points)
+    level = float(np.mean(u))
+    with tempfile.TemporaryDirectory() as folder:
+        source, mine, theirs = (str(Path(folder) / name) for name in ("in.vtu", "a.vtp", "b.vtp"))
+        write_raw(grid_of(points, cells, u, grad), source)
+        program = [str(ARGUMENTS.program), source, "-o", mine, "-a", "u", "-g", "grad_u"]
+        drawing = ["-v", str(level), "--nside", "2", "--quiet", "--threads"]
+        ours = [OUR_PROGRAM, *program, *drawing, str(ARGUMENTS.threads)]
+        both = [ours, [VTK_PROGRAM, source, theirs, str(level)]]
+        found: list[list[list[float]]] = [[], []]
+        for _ in range(ARGUMENTS.rounds):
+            for arguments, results in zip(both, found, strict=True):
+                run = subprocess.run(
+                    [sys.executable, "-c", *arguments], capture_output=True, text=True, check=True
+                )
+                results.append(json.loads(run.stdout))
+        times, peaks = zip(
+            *(map(statistics.median, zip(*of, strict=True)) for of in found), strict=True
+        )
+    name = f"{len(cells)} tetrahedra, file to file"
+    table_row(f"{name}, one level", 1.0, *(1e3 * seconds for seconds in times))
+    table_row(f"{name}, peak memory in MiB", 1.0, *peaks)
+
+
+def write_raw(grid, path: str) -> None:
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(path)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressor(None)
+    writer.Write()
+
+
+def in_paraview() -> None:
+    """The filter beside ParaView's own, both with normals: levels after the first."""
+    program = shutil.which("pvpython")
+    if program is None:
+        print("| (no pvpython here: ParaView's case is left out) | | | | |")
+        return
+    points, cells = cube(round((ARGUMENTS.size / 6) ** (1 / 3)))
+    here = Path(__file__).resolve().parent
+    with tempfile.TemporaryDirectory() as folder:
+        source = str(Path(folder) / "in.vtu")
+        write_raw(grid_of(points, cells, *waves(points)), source)
+        environment = {**os.environ, "PYTHONPATH": str(Path(vc.__file__).parent.parent)}
+        plugin = str(here.parent / "paraview" / "vtu2contour_plugin.py")
+        script = str(here / "paraview_levels.py")
+        run = subprocess.run(
+            [program, script, plugin, source, str(ARGUMENTS.rounds)],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=environment,
+        )
+    mine, theirs = (1e3 * seconds for seconds in json.loads(run.stdout.splitlines()[-1]))
+    table_row(f"{len(cells)} tetrahedra in ParaView, second and later levels", 0.5, mine, theirs)
+
+
 def row(name: str, most: float | None, ours: Callable, theirs: Callable) -> None:
     """A row of the table; the ratio may be ``most`` at most."""
-    mine, other = (1e3 * seconds for seconds in medians(ours, theirs))
+    table_row(name, most, *(1e3 * seconds for seconds in medians(ours, theirs)))
+
+
+def table_row(name: str, most: float | None, mine: float, theirs: float) -> None:
+    """A row with what was measured."""
     limit = "" if most is None else f"{most:g}"
-    print(f"| {name} | {mine:.1f} | {other:.1f} | {mine / other:.3f} | {limit} |", flush=True)
+    print(f"| {name} | {mine:.1f} | {theirs:.1f} | {mine / theirs:.3f} | {limit} |", flush=True)
 
 
 def main() -> None:
     version = vtk.vtkVersion().GetVTKVersion()
     print(f"threads: {ARGUMENTS.threads}; rounds: {ARGUMENTS.rounds}; VTK {version}\n")
     print("| case | ours, ms | theirs, ms | ratio | at most |\n|---|---|---|---|---|")
-    in_memory()
-    in_memory_and_flat()
-    matplotlib_at_equal_error()
-    vtk_at_equal_error()
+    jobs = (
+        in_memory,
+        in_memory_and_flat,
+        matplotlib_at_equal_error,
+        vtk_at_equal_error,
+        file_to_file,
+        in_paraview,
+    )
+    for case, job in zip(CASES, jobs, strict=True):
+        if case in ARGUMENTS.only.split(","):
+            job()
 
 
 if __name__ == "__main__":

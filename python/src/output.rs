@@ -114,7 +114,7 @@ pub fn information<'py>(
     info.set_item("ghosts", interpolation.ghosts())?;
     info.set_item("unusable", interpolation.unusable())?;
     info.set_item("left_out", solution.left_out.total())?;
-    info.set_item("diagonal", solution.diagonal)?;
+    info.set_item("diagonal", interpolation.diagonal)?;
     info.set_item("singular", interpolation.singular())?;
     Ok(info)
 }

@@ -91,7 +91,7 @@ static EDGES: [[[usize; 4]; 4]; 4] = {
     all
 };
 
-const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
+pub(super) const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
 const TO_LINEAR: [[usize; 4]; 4] = parents(2);
 
 impl TetrahedronCubic {

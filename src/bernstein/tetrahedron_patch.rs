@@ -51,11 +51,22 @@ impl TetrahedronCubic {
             return PatchCertificate::None;
         }
         let layers = Layers::of(self, signs);
-        if layers.ends_are_clean() && (layers.change_once() || self.is_monotone(signs)) {
-            PatchCertificate::Patch
-        } else {
-            PatchCertificate::None
-        }
+        // the second is there for speed: what it accepts the third does too
+        let is_patch = layers.ends_are_clean()
+            && (layers.change_once()
+                || self.falls_in_all_directions(signs)
+                || self.is_monotone(signs));
+        if is_patch { PatchCertificate::Patch } else { PatchCertificate::None }
+    }
+
+    /// Whether the polynomial falls, or at least does not rise, in all directions from a vertex
+    /// above to one below: then it does so along all rays, which go in a mean of these.
+    fn falls_in_all_directions(&self, signs: [Sign; 4]) -> bool {
+        let falls = |from: usize, to: usize| {
+            RAISED.iter().all(|at| self.coefficients[at[to]] <= self.coefficients[at[from]])
+        };
+        let on = |side: Sign| (0..4).filter(move |&vertex| signs[vertex] == side);
+        on(Sign::Above).all(|from| on(Sign::Below).all(|to| falls(from, to)))
     }
 
     /// Whether the polynomial falls, or at least does not rise, along all rays from the
@@ -95,6 +106,15 @@ fn raised(layer: usize, signs: [Sign; 4]) -> impl Iterator<Item = Exponents> {
 
 const QUARTIC: [Exponents; 35] = super::tetrahedron::exponents(4);
 
+/// For each coefficient of a quadratic polynomial, the positions of the cubic's with one more
+/// power at each vertex.
+static RAISED: [[usize; 4]; 10] = super::tetrahedron::TO_QUADRATIC;
+
+/// The vertices below, as bits.
+fn bits_below(signs: [Sign; 4]) -> usize {
+    (0..4).filter(|&vertex| signs[vertex] == Sign::Below).fold(0, |bits, vertex| bits | 1 << vertex)
+}
+
 fn degree_below(exponents: &Exponents, signs: [Sign; 4]) -> usize {
     exponents.iter().zip(signs).filter(|(_, sign)| *sign == Sign::Below).map(|(e, _)| e).sum()
 }
@@ -106,15 +126,36 @@ struct Layers {
     above: [bool; 4],
 }
 
+/// For each set of vertices below (vertex `n` is bit `n`), the positions of each layer's
+/// coefficients, as bits.
+static LAYERS: [[u32; 4]; 16] = {
+    let mut all = [[0; 4]; 16];
+    let mut n = 0;
+    while n < 16 * 20 {
+        let (below, position) = (n / 20, n % 20);
+        let (mut degree, mut vertex) = (0, 0);
+        while vertex < 4 {
+            degree += CUBIC[position][vertex] * (below >> vertex & 1);
+            vertex += 1;
+        }
+        all[below][degree] |= 1 << position;
+        n += 1;
+    }
+    all
+};
+
 impl Layers {
     fn of(cubic: &TetrahedronCubic, signs: [Sign; 4]) -> Self {
-        let mut layers = Self { below: [false; 4], above: [false; 4] };
-        for (exponents, &coefficient) in CUBIC.iter().zip(&cubic.coefficients) {
-            let layer = degree_below(exponents, signs);
-            layers.below[layer] |= coefficient < 0.0;
-            layers.above[layer] |= coefficient > 0.0;
+        let (mut below, mut above) = (0, 0);
+        for (position, &coefficient) in cubic.coefficients.iter().enumerate() {
+            below |= u32::from(coefficient < 0.0) << position;
+            above |= u32::from(coefficient > 0.0) << position;
         }
-        layers
+        let layers = &LAYERS[bits_below(signs)];
+        Self {
+            below: layers.map(|layer| layer & below != 0),
+            above: layers.map(|layer| layer & above != 0),
+        }
     }
 
     /// The first layer is not below, the last not above.
@@ -180,6 +221,34 @@ mod tests {
             let value = |n: usize| if signs[n] == Above { v[n] } else { -v[n] };
             let cubic = TetrahedronCubic::linear([0, 1, 2, 3].map(value));
             prop_assert_eq!(cubic.patch_certificate(signs), PatchCertificate::Patch);
+        }
+
+        /// The layers' signs, one coefficient after the other.
+        #[test]
+        fn layers_are_those_of_the_exponents(
+            c in prop::collection::vec(-2..3_i32, 20), which in 0..4usize,
+        ) {
+            let cubic = TetrahedronCubic::new(std::array::from_fn(|n| f64::from(c[n])));
+            let layers = Layers::of(&cubic, SIGNS[which]);
+            for layer in 0..4 {
+                let own = || (0..20).filter(|&n| degree_below(&CUBIC[n], SIGNS[which]) == layer);
+                prop_assert_eq!(layers.below[layer], own().any(|n| c[n] < 0));
+                prop_assert_eq!(layers.above[layer], own().any(|n| c[n] > 0));
+            }
+        }
+
+        #[test]
+        fn what_falls_in_all_directions_is_monotone(
+            v in prop::array::uniform4(0.05..1.0f64), noise in prop::collection::vec(-0.2..0.2f64, 20),
+            which in 0..4usize,
+        ) {
+            let signs = SIGNS[which];
+            let value = |n: usize| if signs[n] == Above { v[n] } else { -v[n] };
+            let mut cubic = TetrahedronCubic::linear([0, 1, 2, 3].map(value));
+            for (c, noise) in cubic.coefficients.iter_mut().zip(noise) {
+                *c += noise;
+            }
+            prop_assert!(!cubic.falls_in_all_directions(signs) || cubic.is_monotone(signs));
         }
 
         /// What the certificate promises: one crossing on every ray.

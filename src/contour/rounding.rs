@@ -1,6 +1,6 @@
 //! How near to the level counts as on it.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::mesh::SimplexMesh;
 
@@ -39,7 +39,7 @@ impl Rounding {
         level: f64,
         cells: &[u32],
     ) -> Self {
-        let mut spreads = HashMap::with_capacity(2 * cells.len());
+        let mut spreads = HashMap::with_capacity_and_hasher(2 * cells.len(), Default::default());
         for &cell in cells {
             let [low, high] = bounds(cell as usize);
             for point in mesh.simplices()[cell as usize] {
@@ -48,6 +48,11 @@ impl Rounding {
             }
         }
         Self { level, spreads }
+    }
+
+    /// That of values alone, without regard to what is around them.
+    pub fn of_values(level: f64) -> Self {
+        Self { level, spreads: HashMap::default() }
     }
 
     /// The level.
@@ -77,6 +82,13 @@ impl Rounding {
         let spread = self.spreads.get(&point).copied().unwrap_or(0.0);
         if spread.is_finite() { spread } else { 0.0 }
     }
+}
+
+/// How near to a level coefficients of a cell with the given range may be and still count as on
+/// it: as on an edge or inside a face. Its corners have [`of_range`].
+pub fn of_coefficients([low, high]: [f64; 2], level: f64) -> f64 {
+    let largest = low.abs().max(high.abs()).max(level.abs());
+    (OF_VALUE * largest).max(OF_SPREAD * (high - low))
 }
 
 /// How far outside the range of a cell a level may be, to rounding, and still be

@@ -59,7 +59,7 @@ pub fn contour(
     let grid = prepared(Cow::Borrowed(grid), options)?;
     let solution = Solution::of_grid(&grid, options)?;
     // a wrong limit is better told before the work than after
-    options.resolution(options.size.unwrap_or(solution.diagonal))?;
+    options.resolution(options.size.unwrap_or_else(|| solution.diagonal()))?;
     progress(Stage::Interpolant);
     let interpolant = Interpolant::new(solution, options)?;
     progress(Stage::Contour);

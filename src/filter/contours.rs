@@ -27,7 +27,7 @@ impl Contours {
         interpolant: &Interpolant,
         options: &ContourOptions,
     ) -> Result<Self, FilterError> {
-        let diagonal = options.size.unwrap_or(interpolant.solution.diagonal);
+        let diagonal = options.size.unwrap_or(interpolant.interpolation.diagonal);
         let resolution = options.resolution(diagonal)?;
         let levels = options.levels.resolve(interpolant.interpolation.range)?;
         let lines = interpolant.in_triangles().map(|(cubics, ranges)| {

@@ -24,6 +24,8 @@ pub struct Interpolation {
     pub tetrahedra: Option<Interpolated<OnTetrahedra>>,
     /// The least and the greatest value of the cubics.
     pub range: [f64; 2],
+    /// The length of the diagonal of the box around all cells, see [`Solution::diagonal`].
+    pub diagonal: f64,
     /// What people should know about the solution, a line each.
     pub warnings: Vec<String>,
 }
@@ -106,7 +108,7 @@ impl Interpolation {
         let no_values = || FilterError::NoValues { name: solution.label.clone() };
         let range = joined.ok_or_else(no_values)?;
         let warnings = warnings(solution, ranges);
-        Ok(Self { triangles, tetrahedra, range, warnings })
+        Ok(Self { triangles, tetrahedra, range, diagonal: solution.diagonal(), warnings })
     }
 
     /// How many triangles and tetrahedra are those of another process.

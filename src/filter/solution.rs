@@ -33,9 +33,6 @@ pub struct Solution<'a> {
     pub folded: CellCounts,
     /// The PDE, if it is known; shared with whoever keeps it for other solutions.
     pub pde: Option<Arc<KnownPde>>,
-    /// The length of the diagonal of the box around all cells: of the larger one, where
-    /// there are two kinds.
-    pub diagonal: f64,
 }
 
 /// The cells of one dimension, as simplices, and the gradients there.
@@ -73,10 +70,9 @@ impl Solution<'static> {
         let values = chosen.values();
         let triangles = Domain::of_grid(grid, triangles, &chosen, &values, options)?;
         let tetrahedra = Domain::of_grid(grid, tetrahedra, &chosen, &values, options)?;
-        let diagonal = diagonal(triangles.as_ref()).max(diagonal(tetrahedra.as_ref()));
         let (label, single) = (chosen.label(), chosen.array.array_type() == ArrayType::F32);
         let values = values.into();
-        Ok(Self { label, single, values, triangles, tetrahedra, left_out, folded, pde, diagonal })
+        Ok(Self { label, single, values, triangles, tetrahedra, left_out, folded, pde })
     }
 }
 
@@ -93,8 +89,7 @@ impl<'a> Solution<'a> {
         pde: Option<Arc<KnownPde>>,
     ) -> Result<Self, FilterError> {
         let domain = Domain::of_arrays(mesh, values, gradients)?;
-        let diagonal = domain.mesh.diagonal();
-        Ok(Self { triangles: Some(domain), ..Self::of_values(values, pde, diagonal) })
+        Ok(Self { triangles: Some(domain), ..Self::of_values(values, pde) })
     }
 
     /// Values and gradients in tetrahedra: of arrays, which are not copied.
@@ -108,12 +103,11 @@ impl<'a> Solution<'a> {
         pde: Option<Arc<KnownPde>>,
     ) -> Result<Self, FilterError> {
         let domain = Domain::of_arrays(mesh, values, gradients)?;
-        let diagonal = domain.mesh.diagonal();
-        Ok(Self { tetrahedra: Some(domain), ..Self::of_values(values, pde, diagonal) })
+        Ok(Self { tetrahedra: Some(domain), ..Self::of_values(values, pde) })
     }
 
     /// Values without cells.
-    fn of_values(values: &'a [f64], pde: Option<Arc<KnownPde>>, diagonal: f64) -> Self {
+    fn of_values(values: &'a [f64], pde: Option<Arc<KnownPde>>) -> Self {
         Self {
             label: SOLUTION.to_owned(),
             single: false,
@@ -123,7 +117,6 @@ impl<'a> Solution<'a> {
             left_out: LeftOut::default(),
             folded: CellCounts::default(),
             pde,
-            diagonal,
         }
     }
 }
@@ -142,6 +135,12 @@ impl Solution<'_> {
         let cells = domain.mesh.simplices().iter().enumerate();
         let used = cells.filter(|(simplex, _)| !domain.is_ghost(*simplex));
         used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
+    }
+
+    /// The length of the diagonal of the box around all cells: of the larger one, where there
+    /// are two kinds.
+    pub fn diagonal(&self) -> f64 {
+        diagonal(self.triangles.as_ref()).max(diagonal(self.tetrahedra.as_ref()))
     }
 
     /// Where the gradient came from: in solids, if there are any.

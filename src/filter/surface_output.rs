@@ -1,11 +1,19 @@
 //! Iso-surfaces as a part of the output.
 
+use rayon::prelude::*;
+
 use super::output::{Output, OutputPoint};
 use super::resample::Stencil;
 use super::solution::Domain;
 use crate::contour::surface::ContourSurface;
 use crate::interpolant::TetrahedronCubics;
 use crate::mesh::{TetrahedronFrame, Vector};
+
+/// Triangles whose gradients are computed before they are summed.
+const AT_ONCE: usize = 1 << 16;
+
+/// Triangles that one thread takes at a time.
+const CHUNK: usize = 1 << 8;
 
 /// Iso-surfaces, and what they came from.
 pub struct SurfaceOutput<'a> {
@@ -47,24 +55,55 @@ impl SurfaceOutput<'_> {
     /// The gradient at each point: that of the cubic; between several cubics, whose slopes
     /// across their common face differ, the mean over the triangles at the point.
     fn gradients(&self) -> Vec<Vector> {
-        let mesh = self.interpolant.mesh();
         let mut sums = vec![(Vector::zeros(), 0.0); self.surface.points.len()];
-        for (triangle, &cell) in self.surface.triangles.iter().zip(&self.surface.cells) {
-            let frame = TetrahedronFrame::new(mesh.corners(cell as usize));
-            if frame.is_degenerate() {
-                continue;
-            }
-            let cubic = self.interpolant.cubic(cell as usize);
-            for &point in triangle {
-                let at = frame.barycentric(&self.surface.points[point as usize].position);
-                let gradient = frame.gradient(&cubic.barycentric_gradient(&at));
-                if gradient.iter().all(|x| x.is_finite()) {
-                    let (sum, count) = &mut sums[point as usize];
-                    *sum += gradient;
-                    *count += 1.0;
+        for (triangles, cells) in
+            self.surface.triangles.chunks(AT_ONCE).zip(self.surface.cells.chunks(AT_ONCE))
+        {
+            // in parallel, and added in their order: the same for any number of threads
+            let of_corners: Vec<[Vector; 3]> = triangles
+                .par_chunks(CHUNK)
+                .zip(cells.par_chunks(CHUNK))
+                .flat_map_iter(|(triangles, cells)| self.gradients_at_corners(triangles, cells))
+                .collect();
+            for (triangle, gradients) in triangles.iter().zip(of_corners) {
+                for (&point, gradient) in triangle.iter().zip(gradients) {
+                    if gradient.iter().all(|x| x.is_finite()) {
+                        let (sum, count) = &mut sums[point as usize];
+                        *sum += gradient;
+                        *count += 1.0;
+                    }
                 }
             }
         }
         sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { sum }).collect()
+    }
+
+    /// The gradients at the corners of triangles, by the cubics of their cells; not a number in a
+    /// cell without a volume.
+    fn gradients_at_corners(
+        &self,
+        triangles: &[[u32; 3]],
+        cells: &[u32],
+    ) -> impl Iterator<Item = [Vector; 3]> {
+        let mesh = self.interpolant.mesh();
+        // a patch's triangles follow one another
+        let patches = cells.chunk_by(|one, next| one == next);
+        let mut rest = triangles;
+        patches.flat_map(move |patch| {
+            let cell = patch[0] as usize;
+            let (frame, cubic) =
+                (TetrahedronFrame::new(mesh.corners(cell)), self.interpolant.cubic(cell));
+            let (own, others) = rest.split_at(patch.len());
+            rest = others;
+            own.iter().map(move |triangle| {
+                triangle.map(|point| {
+                    if frame.is_degenerate() {
+                        return Vector::repeat(f64::NAN);
+                    }
+                    let at = frame.barycentric(&self.surface.points[point as usize].position);
+                    frame.gradient(&cubic.barycentric_gradient(&at))
+                })
+            })
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! What values and gradients say of the cubic on a tetrahedron: 16 of its 20
 //! coefficients, and a first value for the other four.
 
-use crate::bernstein::TetrahedronCubic;
+use crate::bernstein::{SegmentCubic, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{TetrahedronMesh, Vector};
 
@@ -27,9 +27,31 @@ fn hermite_of(
     let values = points.map(|point| field.values[point]);
     let corners = points.map(|point| positions[point]);
     let toward = |i: usize, j: usize| {
-        values[i] + field.gradients[points[i]].dot(&(corners[j] - corners[i])) / 3.0
+        let edge = corners[j] - corners[i];
+        beside(values[i], &field.gradients[points[i]], &edge)
     };
     TetrahedronCubic::assemble(values, toward, faces)
+}
+
+/// The cubic on the edge between two points.
+pub(super) fn hermite_on_edge(
+    points: [u32; 2],
+    positions: &[Vector],
+    field: &Field,
+) -> SegmentCubic {
+    let [a, b] = points.map(|point| point as usize);
+    let edge = positions[b] - positions[a];
+    SegmentCubic::new([
+        field.values[a],
+        beside(field.values[a], &field.gradients[a], &edge),
+        beside(field.values[b], &field.gradients[b], &-edge),
+        field.values[b],
+    ])
+}
+
+/// The coefficient beside a vertex on an edge that leads away from it.
+fn beside(value: f64, gradient: &Vector, edge: &Vector) -> f64 {
+    value + gradient.dot(edge) / 3.0
 }
 
 /// The cubic that reproduces quadratics: amid a face it has a quarter of the face's

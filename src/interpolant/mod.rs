@@ -27,7 +27,7 @@ pub use pde_fit::PdeFit;
 pub use pieces::{Pieces, Taylor};
 pub use tricubic::{FaceCoefficients, Tricubic};
 
-use crate::bernstein::{TetrahedronCubic, TriangleCubic};
+use crate::bernstein::{SegmentCubic, TetrahedronCubic, TriangleCubic};
 use crate::mesh::{TetrahedronMesh, TriangleMesh};
 
 /// One cubic a triangle, continuous from each triangle to the next.
@@ -52,4 +52,10 @@ pub trait TetrahedronCubics: Sync {
 
     /// The cubic on a tetrahedron, its coefficients in the order of the mesh's corners.
     fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic;
+
+    /// The cubic on an edge of a tetrahedron, from one corner to another: as
+    /// [`TetrahedronCubics::cubic`] has it, to the last bit.
+    fn edge(&self, tetrahedron: usize, edge: [usize; 2]) -> SegmentCubic {
+        self.cubic(tetrahedron).edge(edge)
+    }
 }

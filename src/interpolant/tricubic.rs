@@ -20,9 +20,9 @@ use super::TetrahedronCubics;
 use super::equation::Equation;
 use super::face_completion::face_corrections;
 use super::face_equations::{FaceEquations, face_equations};
-use super::hermite::{hermite, quadratic_precision};
+use super::hermite::{hermite, hermite_on_edge, quadratic_precision};
 use super::least_squares::least_squares;
-use crate::bernstein::TetrahedronCubic;
+use crate::bernstein::{SegmentCubic, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{Faces, TetrahedronMesh};
 use crate::pde::LANES;
@@ -153,5 +153,10 @@ impl TetrahedronCubics for Tricubic<'_> {
             Some(faces) => hermite(self.mesh, &self.field, tetrahedron, faces[tetrahedron]),
             None => quadratic_precision(self.mesh, &self.field, tetrahedron),
         }
+    }
+
+    fn edge(&self, tetrahedron: usize, edge: [usize; 2]) -> SegmentCubic {
+        let points = self.mesh.tetrahedra()[tetrahedron];
+        hermite_on_edge(edge.map(|corner| points[corner]), self.mesh.points(), &self.field)
     }
 }

@@ -47,6 +47,9 @@ pub enum MeshError {
     },
 }
 
+/// Simplices whose points one thread checks at a time.
+const CHECKED_AT_ONCE: usize = 1 << 14;
+
 impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     /// A mesh of `points` and `simplices` (the indices of their corners).
     ///
@@ -70,13 +73,22 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
             return Err(MeshError::TooMany { simplices: self.simplices.len() });
         }
         let points = self.points.len();
-        let beyond = |corners: &[u32; CORNERS]| {
-            corners.iter().copied().find(|&point| point as usize >= points)
-        };
-        match self.simplices.par_iter().position_first(|corners| beyond(corners).is_some()) {
+        let greatest = |corners: &[u32; CORNERS]| corners.iter().copied().fold(0, u32::max);
+        let within = |corners: &[u32; CORNERS]| (greatest(corners) as usize) < points;
+        // nearly always all are: found without a branch for each
+        let chunks = self.simplices.par_chunks(CHECKED_AT_ONCE);
+        if chunks
+            .map(|chunk| chunk.iter().map(greatest).fold(0, u32::max))
+            .all(|n| (n as usize) < points)
+        {
+            return Ok(self);
+        }
+        match self.simplices.par_iter().position_first(|corners| !within(corners)) {
             None => Ok(self),
             Some(simplex) => {
-                let point = beyond(&self.simplices[simplex]).unwrap_or_default();
+                let corners = self.simplices[simplex].into_iter();
+                let point = corners.into_iter().find(|&point| point as usize >= points);
+                let point = point.unwrap_or_default();
                 Err(MeshError::PointOutOfRange { simplex, point, points })
             }
         }
@@ -141,9 +153,12 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
     /// simplices. Points that no simplex uses, and those that are not finite, do not
     /// count.
     pub fn diagonal(&self) -> f64 {
-        let corners = self.simplices.par_iter().flatten_iter();
-        let points = corners.map(|&point| self.points[point as usize]);
-        let finite = points.filter(|point| point.iter().all(|x| x.is_finite()));
+        let mut is_used = vec![false; self.points.len()];
+        for corner in self.simplices.iter().flatten() {
+            is_used[*corner as usize] = true;
+        }
+        let used = self.points.par_iter().zip(is_used).filter(|(_, is_used)| *is_used);
+        let finite = used.map(|(point, _)| *point).filter(|p| p.iter().all(|x| x.is_finite()));
         let boxes = finite.map(|point| (point, point));
         let whole = boxes.reduce_with(|(low, high), (l, h)| (low.inf(&l), high.sup(&h)));
         whole.map_or(0.0, |(low, high)| (high - low).norm())

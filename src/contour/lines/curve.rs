@@ -22,9 +22,10 @@ impl Resolution {
     /// The same limits, but none finer than coordinates of the mesh can be told
     /// apart.
     pub fn no_finer_than(self, mesh: &TriangleMesh) -> Self {
-        let coordinates = mesh.points().iter().flat_map(|point| point.iter());
-        let finite = coordinates.filter(|x| x.is_finite());
-        let least = COORDINATE * finite.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let is_larger = |x: f64, than: f64| x.abs() > than && x.is_finite();
+        let larger = |than: f64, x: &f64| if is_larger(*x, than) { x.abs() } else { than };
+        let largest = mesh.points().iter().flat_map(|point| point.iter()).fold(0.0, larger);
+        let least = COORDINATE * largest;
         let limit = |value: f64| if value > 0.0 { value.max(least) } else { f64::INFINITY };
         Self { spacing: limit(self.spacing), tolerance: limit(self.tolerance) }
     }

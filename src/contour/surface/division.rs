@@ -17,7 +17,7 @@
 //! The thesis divides a piece with a component inside in four, at an extreme. Bisection
 //! finds the component as surely, without a point that comes near to a face.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::cell::Cell;
 use super::piece::{EDGES, Piece};
@@ -37,7 +37,7 @@ pub struct EdgePoint {
 
 /// The edges that are divided in one round.
 #[derive(Debug, Default)]
-pub struct Marks(HashMap<EdgeName, EdgePoint>);
+pub struct Marks(FxHashMap<EdgeName, EdgePoint>);
 
 /// A division nearer to a vertex than this would make slivers.
 const NEAREST: f64 = 0.2;
@@ -91,6 +91,16 @@ impl Marks {
         self.0.len()
     }
 
+    /// The edges.
+    pub fn edges(&self) -> impl Iterator<Item = EdgeName> {
+        self.0.keys().copied()
+    }
+
+    /// Whether an edge between some vertices, which are ascending, is marked.
+    pub fn touch_edges_of(&self, vertices: &[u32; 4]) -> bool {
+        EDGES.iter().any(|edge| self.0.contains_key(&edge.map(|n| vertices[n])))
+    }
+
     /// The marked edge of a piece that comes first, as places of its vertices.
     fn first_of(&self, piece: &Piece) -> Option<([usize; 2], EdgePoint)> {
         let marked = EDGES.into_iter().filter_map(|edge| {
@@ -103,7 +113,7 @@ impl Marks {
 
     /// Whether a piece has a marked edge.
     pub fn touch(&self, piece: &Piece) -> bool {
-        self.first_of(piece).is_some()
+        self.touch_edges_of(&piece.vertices)
     }
 
     /// Divides a piece by all its marked edges.

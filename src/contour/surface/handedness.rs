@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::cell::Cell;
 use crate::bernstein::TetrahedronCubic;
+use crate::mesh::Vector;
 
 /// A cell is a sliver if six times its volume is below this part of its longest edge from one
 /// corner, cubed. In a mesh without folds neighbours and volume agree, so that it may be ample.
@@ -22,7 +23,7 @@ type CellsAtFaces = HashMap<[u32; 3], Vec<usize>>;
 /// Gives slivers the handedness that their neighbours leave to them. Those that have slivers alone
 /// for neighbours keep their own.
 pub fn settle_slivers(cells: &mut [Cell]) {
-    let mut is_open: Vec<bool> = cells.par_iter().map(is_sliver).collect();
+    let mut is_open: Vec<bool> = cells.par_iter().map(|cell| is_sliver(&cell.corners)).collect();
     if !is_open.contains(&true) {
         return;
     }
@@ -43,10 +44,18 @@ pub fn settle_slivers(cells: &mut [Cell]) {
     }
 }
 
-fn is_sliver(cell: &Cell) -> bool {
-    let [a, b, c] = [1, 2, 3].map(|corner| cell.corners[corner] - cell.corners[0]);
-    let longest = a.norm().max(b.norm()).max(c.norm());
-    a.cross(&b).dot(&c).abs() <= SLIVER * longest.powi(3)
+/// Whether a tetrahedron with these corners has hardly any volume.
+pub fn is_sliver(corners: &[Vector; 4]) -> bool {
+    let squares = [1, 2, 3].map(|n| (corners[n] - corners[0]).norm_squared());
+    let longest = squares.into_iter().fold(0.0, f64::max);
+    // squared, for speed
+    signed_volume(corners).powi(2) <= SLIVER.powi(2) * longest.powi(3)
+}
+
+/// Six times the volume, above zero for a right-handed tetrahedron.
+pub fn signed_volume(corners: &[Vector; 4]) -> f64 {
+    let [a, b, c] = [1, 2, 3].map(|corner| corners[corner] - corners[0]);
+    a.cross(&b).dot(&c)
 }
 
 fn cells_at_faces(cells: &[Cell], is_sliver: &[bool]) -> CellsAtFaces {

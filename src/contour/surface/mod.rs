@@ -12,6 +12,7 @@ mod patch;
 mod piece;
 mod refinement;
 mod settle;
+mod simple;
 mod surface_builder;
 mod tessellation;
 mod uniform;
@@ -30,6 +31,7 @@ use cell::Cell;
 use patch::Patch;
 use piece::Piece;
 use settle::settle;
+use simple::SimpleCells;
 use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
 use walls::Walls;
@@ -65,21 +67,32 @@ pub fn contour_surface(
 ) -> ContourSurface {
     let mut surface = ContourSurface { levels: levels.to_vec(), ..Default::default() };
     surface.counts.unusable = ranges.unusable();
+    let (points, tolerance) = match fineness {
+        Fineness::PointsPerSide(points) => (points.clamp(2, MOST_POINTS), None),
+        Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
+    };
     for &level in levels {
-        let cells = cells_at(interpolant, ranges, level);
-        let settled = settle(&cells, first_new_vertex(interpolant));
-        surface.counts.active += cells.len();
+        let active = active_cells(interpolant, ranges, level);
+        let (mut simple, others) = match fineness {
+            Fineness::PointsPerSide(2) => SimpleCells::new(interpolant, level, &active),
+            _ => (SimpleCells::default(), active.clone()),
+        };
+        let around = simple::around(interpolant, &others, &active);
+        let mut cells = cells_at(interpolant, ranges, level, &others, &around);
+        surface.counts.active += simple.len() + cells.len();
+        let first_new_vertex = first_new_vertex(interpolant);
+        let settled = settle(&mut cells, first_new_vertex, |marks, cells| {
+            let woken = simple.take_marked(marks, first_new_vertex);
+            cells.extend(far_cells(interpolant, level, &woken));
+        });
         surface.counts.divided += settled.divided;
         surface.counts.unresolved += settled.unresolved;
-        let (points, tolerance) = match fineness {
-            Fineness::PointsPerSide(points) => (points.clamp(2, MOST_POINTS), None),
-            Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
-        };
         let patches = tessellations(&cells, &settled.pieces, points);
         let mut flat_faces = Tessellation::default();
         flat_faces::add_flat_faces(&cells, points - 1, &mut flat_faces);
-        let level = Level { cells: &cells, pieces: &settled.pieces, tolerance };
-        add_level(&mut surface, &level, &patches, &flat_faces);
+        let level =
+            Level { level, simple: &simple, cells: &cells, pieces: &settled.pieces, tolerance };
+        add_level(interpolant, &mut surface, &level, &patches, &flat_faces);
     }
     surface
 }
@@ -89,21 +102,41 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
     interpolant.mesh().points().len() as u32
 }
 
-fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<Cell> {
+/// The numbers of the cells that may hold a level.
+fn active_cells(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<u32> {
     let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
-    let active = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
-    let rounding = Rounding::new(interpolant.mesh(), bounds, level, &active);
-    let walls = Walls::new(interpolant, ranges, &rounding, &active);
+    ranges.cells_at(level, |range| rounding::of_range(range, level), bounds)
+}
+
+/// Cells at a level, by their numbers; `around` are all active ones that share points with them,
+/// themselves included: what lies on the level is decided by all around it.
+fn cells_at(
+    interpolant: &dyn TetrahedronCubics,
+    ranges: &CellRanges,
+    level: f64,
+    numbers: &[u32],
+    around: &[u32],
+) -> Vec<Cell> {
+    let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+    let rounding = Rounding::new(interpolant.mesh(), bounds, level, around);
+    let walls = Walls::new(interpolant, ranges, &rounding, around);
     let cell = |&number: &u32| {
         checkpoint();
         Cell::new(interpolant, &rounding, &walls, number)
     };
     // of known length, so that it is not put together of parts, which takes twice the memory
-    let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
+    let cells: Vec<Option<Cell>> = numbers.par_iter().map(cell).collect();
     let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
     handedness::settle_slivers(&mut cells);
     flat_faces::leave_to_patches(&mut cells);
     cells
+}
+
+/// Cells that have nothing on the level, nor so near that rounding might put it there.
+fn far_cells(interpolant: &dyn TetrahedronCubics, level: f64, numbers: &[u32]) -> Vec<Cell> {
+    let rounding = Rounding::of_values(level);
+    let cell = |&number: &u32| Cell::new(interpolant, &rounding, &Walls::default(), number);
+    numbers.iter().filter_map(cell).collect()
 }
 
 fn tessellations(cells: &[Cell], pieces: &[Piece], points: u32) -> Vec<Tessellation> {

@@ -47,11 +47,6 @@ type Group = ArrayVec<usize, 4>;
 const AT_END: f64 = 64.0 * f64::EPSILON;
 
 impl Patch<'_> {
-    /// The vertices on one side of the level.
-    pub fn group(&self, side: Sign) -> Group {
-        (0..4).filter(|&n| self.piece.signs[n] == side).collect()
-    }
-
     /// Where a ray crosses the surface.
     pub fn point(&self, ray: &Ray) -> PatchPoint {
         let (from, to) = self.ends(ray);

@@ -10,7 +10,7 @@
 //! in which the surface meets a face: where these are nearly tangent the curve winds
 //! within the surface, and following it would gain nothing.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet};
 
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
@@ -78,7 +78,7 @@ pub struct Refinement<'a> {
     /// The number of the first point that is added.
     pub first_point: u32,
     /// Points that are vertices on the level, or on edges that lie on it.
-    pub on_level: HashSet<u32>,
+    pub on_level: FxHashSet<u32>,
     /// Triangles that are not as fine as asked, because they would be too small.
     pub coarse: usize,
 }
@@ -196,7 +196,7 @@ impl Refinement<'_> {
             .par_iter()
             .map(|&(_, place, side)| self.middle(&self.facets[place], side).1)
             .collect();
-        let mut middles = HashMap::with_capacity(marked.len());
+        let mut middles = HashMap::with_capacity_and_hasher(marked.len(), Default::default());
         for (&(name, place, _), point) in marked.iter().zip(found) {
             // a ray that ends on the level leads to a point that is there already
             if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {

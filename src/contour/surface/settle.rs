@@ -53,8 +53,14 @@ struct Known {
 }
 
 /// Divides the cells until each piece holds one simple patch or none. `points` is the
-/// number of the mesh's points: vertices that divisions add are numbered from there.
-pub fn settle(cells: &[Cell], points: u32) -> Settled {
+/// number of the mesh's points: vertices that divisions add are numbered from there. Cells that
+/// need not be divided for their own sake may wait outside; `wake` is told the marked edges, and
+/// adds those that have one to the cells.
+pub fn settle(
+    cells: &mut Vec<Cell>,
+    points: u32,
+    mut wake: impl FnMut(&Marks, &mut Vec<Cell>),
+) -> Settled {
     let whole = (0..cells.len() as u32).into_par_iter();
     let mut pieces: Vec<Known> = whole
         .filter_map(|place| known(cells, Piece::whole(&cells[place as usize], place)))
@@ -66,6 +72,10 @@ pub fn settle(cells: &[Cell], points: u32) -> Settled {
             return settled(cells.len(), pieces);
         }
         next_vertex += marks.len() as u32;
+        let before = cells.len();
+        wake(&marks, cells);
+        let woken = (before..cells.len()).map(|n| Piece::whole(&cells[n], n as u32));
+        pieces.extend(woken.filter_map(|piece| known(cells, piece)));
         pieces = pieces
             .into_par_iter()
             .inspect(|_| checkpoint())

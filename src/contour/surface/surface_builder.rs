@@ -1,6 +1,6 @@
 //! From the triangles of patches to one surface: shared points are stored once.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cell::{Cell, is_even};
 use super::contour_surface::{ContourSurface, SurfacePoint};
@@ -9,12 +9,18 @@ use super::owner::Owner;
 use super::patch::PatchPoint;
 use super::piece::Piece;
 use super::refinement::{Facet, Refinement};
+use super::simple::{Crossings, SimpleCells, edge_key};
 use super::tessellation::Tessellation;
+use crate::interpolant::TetrahedronCubics;
 
 /// A level's cells and pieces, and how far triangles may be from it, if that decides how
 /// fine they are.
 pub struct Level<'a> {
-    /// The active cells.
+    /// The level.
+    pub level: f64,
+    /// The simple cells, which have no pieces.
+    pub simple: &'a SimpleCells,
+    /// The other active cells.
     pub cells: &'a [Cell],
     /// The pieces.
     pub pieces: &'a [Piece],
@@ -25,19 +31,23 @@ pub struct Level<'a> {
 /// Adds the triangles of a level: those of patches, chunk by chunk, and those of faces that
 /// lie on the level.
 pub fn add_level(
+    interpolant: &dyn TetrahedronCubics,
     surface: &mut ContourSurface,
     level: &Level,
     patches: &[Tessellation],
     flat_faces: &Tessellation,
 ) {
     let (first_point, first_triangle) = (surface.points.len(), surface.triangles.len());
-    let (places, on_level, facets) = (HashMap::new(), HashSet::new(), Vec::new());
-    let mut builder = Builder { surface, level, places, facets, on_level, collapsed: false };
+    let crossings = level.simple.draw(interpolant, level.level, surface);
+    let first_of_builder = surface.points.len();
+    let (places, on_level, facets) = (FxHashMap::default(), FxHashSet::default(), Vec::new());
+    let mut builder =
+        Builder { surface, level, crossings, places, facets, on_level, collapsed: false };
     for chunk in patches {
         builder.add(chunk, true);
     }
     builder.add(flat_faces, false);
-    builder.finish(first_point);
+    builder.finish(first_of_builder);
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
 }
@@ -45,12 +55,14 @@ pub fn add_level(
 struct Builder<'a> {
     surface: &'a mut ContourSurface,
     level: &'a Level<'a>,
+    /// Where the crossings are of the edges of simple cells.
+    crossings: Crossings,
     /// Where the points are that patches share.
-    places: HashMap<Owner, u32>,
+    places: FxHashMap<Owner, u32>,
     /// The triangles.
     facets: Vec<Facet>,
     /// Points that are vertices on the level.
-    on_level: HashSet<u32>,
+    on_level: FxHashSet<u32>,
     /// Whether parts of patches fell together on the level.
     collapsed: bool,
 }
@@ -83,8 +95,13 @@ impl Builder<'_> {
     fn place(&mut self, chunk: &Tessellation, n: usize) -> u32 {
         let point = &chunk.points[n];
         let next = self.surface.points.len() as u32;
+        let crossing = match point.owner {
+            Owner::Edge { low, high } => self.crossings.get(&edge_key(low, high)),
+            _ => None,
+        };
         let place = match point.owner {
             Owner::Patch => next,
+            _ if crossing.is_some() => return crossing.copied().unwrap_or(next),
             owner => *self.places.entry(owner).or_insert(next),
         };
         if place == next {
@@ -97,7 +114,7 @@ impl Builder<'_> {
     }
 
     /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
-    /// `first_point` is the level's first.
+    /// `first_point` is the first that is not a simple cell's.
     fn finish(mut self, first_point: usize) {
         if let Some(tolerance) = self.level.tolerance {
             let mut refinement = Refinement {
@@ -134,7 +151,9 @@ impl Builder<'_> {
     fn drop_unused_points(&mut self, first: usize) {
         let mut is_used = vec![false; self.surface.points.len() - first];
         for corner in self.facets.iter().flat_map(|facet| facet.corners) {
-            is_used[corner as usize - first] = true;
+            if let Some(place) = (corner as usize).checked_sub(first) {
+                is_used[place] = true;
+            }
         }
         if !is_used.contains(&false) {
             return;
@@ -148,7 +167,10 @@ impl Builder<'_> {
         }
         self.surface.points.truncate(next);
         for facet in &mut self.facets {
-            facet.corners = facet.corners.map(|corner| numbers[corner as usize - first]);
+            facet.corners = facet.corners.map(|corner| {
+                let place = (corner as usize).checked_sub(first);
+                place.map_or(corner, |place| numbers[place])
+            });
         }
     }
 }

@@ -34,18 +34,24 @@ impl Tessellation {
 /// The corners of a patch: rays along the edges of its piece, in an order that has the
 /// lower side of the level in front. Three, or four around a quadrilateral.
 pub fn corners(patch: &Patch) -> ArrayVec<Ray, 4> {
-    let (above, below) = (patch.group(Sign::Above), patch.group(Sign::Below));
-    let ray = |n: usize, m: usize| -> Ray {
+    let edges = corner_edges(patch.piece.signs, patch.piece.right_handed);
+    let ray = |edge: [usize; 2]| {
         let mut ray = [0.0; 4];
-        ray[n] = 1.0;
-        ray[m] = 1.0;
+        edge.into_iter().for_each(|vertex| ray[vertex] = 1.0);
         ray
     };
-    let mut corners = match (&above[..], &below[..]) {
-        (&[apex], &[b, c, d]) => ArrayVec::from_iter([ray(apex, b), ray(apex, c), ray(apex, d)]),
-        (&[b, c, d], &[apex]) => ArrayVec::from_iter([ray(apex, b), ray(apex, d), ray(apex, c)]),
-        (&[a, b], &[c, d]) => ArrayVec::from_iter([ray(a, c), ray(a, d), ray(b, d), ray(b, c)]),
-        // unresolved, with all vertices on one side
+    edges.into_iter().map(ray).collect()
+}
+
+/// The edges around a patch in that order, given the sides of the vertices, and whether these are
+/// those of a right-handed tetrahedron. None if all are on one side, as in what is unresolved.
+pub fn corner_edges(signs: [Sign; 4], right_handed: bool) -> ArrayVec<[usize; 2], 4> {
+    let group = |side| (0..4).filter(|&n| signs[n] == side).collect::<ArrayVec<usize, 4>>();
+    let (above, below) = (group(Sign::Above), group(Sign::Below));
+    let mut edges = match (&above[..], &below[..]) {
+        (&[apex], &[b, c, d]) => ArrayVec::from_iter([[apex, b], [apex, c], [apex, d]]),
+        (&[b, c, d], &[apex]) => ArrayVec::from_iter([[apex, b], [apex, d], [apex, c]]),
+        (&[a, b], &[c, d]) => ArrayVec::from_iter([[a, c], [a, d], [b, d], [b, c]]),
         _ => return ArrayVec::new(),
     };
     // the orders above are those of a right-handed tetrahedron whose vertices are listed so
@@ -53,8 +59,8 @@ pub fn corners(patch: &Patch) -> ArrayVec<Ray, 4> {
         1 => below.iter().chain(&above).copied().collect(),
         _ => above.iter().chain(&below).copied().collect(),
     };
-    if patch.piece.right_handed != is_even(&listed) {
-        corners[1..].reverse();
+    if right_handed != is_even(&listed) {
+        edges[1..].reverse();
     }
-    corners
+    edges
 }

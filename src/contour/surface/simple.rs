@@ -1,0 +1,283 @@
+//! Simple cells: their surface is one patch, and nothing else of them is near the level.
+//!
+//! On a fine mesh nearly all active cells are. With two points a side a patch is the polygon of
+//! the crossings of its cell's edges: it is drawn from these, without pieces and rays. Names and
+//! places of points are those that [`super::patch`] finds, so that both kinds of cells fit
+//! together.
+
+use std::sync::LazyLock;
+
+use arrayvec::ArrayVec;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::contour_surface::{ContourSurface, SurfacePoint};
+use super::division::Marks;
+use super::handedness::{is_sliver, signed_volume};
+use super::tessellation::corner_edges;
+use crate::bernstein::{PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
+use crate::contour::crossings::crossings;
+use crate::contour::rounding;
+use crate::interpolant::TetrahedronCubics;
+use crate::interruption::checkpoint;
+
+/// A cell with one patch.
+#[derive(Clone, Copy, Debug)]
+struct SimpleCell {
+    number: u32,
+    /// The numbers of its corners, ascending.
+    points: [u32; 4],
+    /// The places of its corners in the mesh's own order.
+    order: [u8; 4],
+    /// The sides of the corners, ascending.
+    signs: [Sign; 4],
+    /// Whether the corners, ascending, are those of a right-handed tetrahedron.
+    right_handed: bool,
+}
+
+/// The simple ones of the cells that are active at a level.
+#[derive(Debug, Default)]
+pub struct SimpleCells(Vec<SimpleCell>);
+
+/// An edge of the mesh: its points' numbers in one, the lower first.
+pub type EdgeKey = u64;
+
+/// The key of an edge between points, the lower first.
+pub fn edge_key(low: u32, high: u32) -> EdgeKey {
+    u64::from(low) << 32 | u64::from(high)
+}
+
+/// Where the crossing of each edge of simple cells is in the surface.
+pub type Crossings = FxHashMap<EdgeKey, u32>;
+
+impl SimpleCells {
+    /// The simple ones of the active cells at a level, and the numbers of the others.
+    pub fn new(
+        interpolant: &dyn TetrahedronCubics,
+        level: f64,
+        active: &[u32],
+    ) -> (Self, Vec<u32>) {
+        let judge = |&number: &u32| {
+            checkpoint();
+            judge(interpolant, level, number)
+        };
+        let judged: Vec<Judged> = active.par_iter().map(judge).collect();
+        let slivers = numbers(active, &judged, |judged| matches!(judged, Judged::Sliver));
+        // slivers turn as the cells around them do
+        let beside_slivers = around(interpolant, &slivers, active);
+        let (mut simple, mut others) = (Vec::with_capacity(active.len()), Vec::new());
+        let mut beside_slivers = beside_slivers.iter().peekable();
+        for (&number, judged) in active.iter().zip(judged) {
+            let is_beside = beside_slivers.next_if(|beside| **beside == number).is_some();
+            match judged {
+                Judged::Simple(cell) if !is_beside => simple.push(cell),
+                _ => others.push(number),
+            }
+        }
+        (Self(simple), others)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Takes out the cells of which an edge is marked, to be divided with their neighbours.
+    /// `points` is the number of the mesh's points.
+    pub fn take_marked(&mut self, marks: &Marks, points: u32) -> Vec<u32> {
+        let mut at_marks = vec![false; points as usize];
+        for [low, high] in marks.edges().filter(|[_, high]| *high < points) {
+            at_marks[low as usize] = true;
+            at_marks[high as usize] = true;
+        }
+        let mut taken = Vec::new();
+        self.0.retain(|cell| {
+            let has_two = cell.points.iter().filter(|&&point| at_marks[point as usize]).count() > 1;
+            let is_marked = has_two && marks.touch_edges_of(&cell.points);
+            if is_marked {
+                taken.push(cell.number);
+            }
+            !is_marked
+        });
+        taken
+    }
+
+    /// Adds their patches to a surface; returns where the crossings of their edges are.
+    pub fn draw(
+        &self,
+        interpolant: &dyn TetrahedronCubics,
+        level: f64,
+        surface: &mut ContourSurface,
+    ) -> Crossings {
+        let first = surface.points.len() as u32;
+        let mut crossings = Crossings::default();
+        crossings.reserve(self.0.len());
+        // of each crossing, a cell and the edge there
+        let mut edges: Vec<(u32, [u8; 2])> = Vec::with_capacity(self.0.len());
+        let mut polygons: Vec<[u32; 4]> = Vec::with_capacity(self.0.len());
+        for (place, cell) in self.0.iter().enumerate() {
+            let mut polygon = [NONE; 4];
+            for (corner, &[low, high]) in polygon.iter_mut().zip(&POLYGONS[cell.situation()]) {
+                let key = edge_key(cell.points[low as usize], cell.points[high as usize]);
+                *corner = *crossings.entry(key).or_insert_with(|| {
+                    edges.push((place as u32, [low, high]));
+                    first + edges.len() as u32 - 1
+                });
+            }
+            polygons.push(polygon);
+        }
+        let point = |&(place, edge): &(u32, [u8; 2])| {
+            checkpoint();
+            self.0[place as usize].crossing(interpolant, level, edge)
+        };
+        surface.points.par_extend(edges.par_iter().map(point));
+        for (cell, polygon) in self.0.iter().zip(polygons) {
+            let first = surface.triangles.len();
+            add_polygon(polygon, surface);
+            let triangles = surface.triangles.len() - first;
+            surface.cells.extend(std::iter::repeat_n(cell.number, triangles));
+        }
+        crossings
+    }
+}
+
+/// What a cell is.
+enum Judged {
+    Simple(SimpleCell),
+    Sliver,
+    Other,
+}
+
+fn judge(interpolant: &dyn TetrahedronCubics, level: f64, number: u32) -> Judged {
+    let mesh = interpolant.mesh();
+    let corners = mesh.corners(number as usize);
+    let volume = signed_volume(&corners);
+    if is_sliver(&corners) {
+        return Judged::Sliver;
+    }
+    let cubic = interpolant.cubic(number as usize);
+    let bounds = cubic.bounds().into();
+    let above_level = TetrahedronCubic::new(cubic.coefficients.map(|c| c - level));
+    let is_clear =
+        |values: &[f64], near: f64| values.iter().fold(true, |all, v| all & (v.abs() > near));
+    let is_clear = is_clear(&above_level.coefficients, rounding::of_coefficients(bounds, level))
+        && is_clear(&above_level.vertices(), rounding::of_range(bounds, level));
+    let signs = above_level.vertices().map(Sign::of);
+    if !is_clear || above_level.patch_certificate(signs) != PatchCertificate::Patch {
+        return Judged::Other;
+    }
+    let points = mesh.tetrahedra()[number as usize];
+    let (order, is_even) = ascending(points);
+    Judged::Simple(SimpleCell {
+        number,
+        points: order.map(|place| points[usize::from(place)]),
+        order,
+        signs: order.map(|place| signs[usize::from(place)]),
+        right_handed: (volume > 0.0) == is_even,
+    })
+}
+
+/// The places of points in ascending order, and whether that is an even permutation.
+fn ascending(points: [u32; 4]) -> ([u8; 4], bool) {
+    let mut keys = [0, 1, 2, 3].map(|place| u64::from(points[place]) << 2 | place as u64);
+    let mut is_even = true;
+    // a sorting network
+    for [i, j] in [[0, 1], [2, 3], [0, 2], [1, 3], [1, 2]] {
+        let (low, high) = (keys[i].min(keys[j]), keys[i].max(keys[j]));
+        is_even ^= low != keys[i];
+        (keys[i], keys[j]) = (low, high);
+    }
+    (keys.map(|key| (key & 3) as u8), is_even)
+}
+
+/// The numbers of the active cells that were judged in a way.
+fn numbers(active: &[u32], judged: &[Judged], wanted: impl Fn(&Judged) -> bool) -> Vec<u32> {
+    let pairs = active.iter().zip(judged);
+    pairs.filter(|(_, judged)| wanted(judged)).map(|(&number, _)| number).collect()
+}
+
+/// The active cells that have a point of some cells, these themselves included.
+pub fn around(interpolant: &dyn TetrahedronCubics, cells: &[u32], active: &[u32]) -> Vec<u32> {
+    if cells.is_empty() {
+        return Vec::new();
+    }
+    let mesh = interpolant.mesh();
+    let mut is_point_of_one = vec![false; mesh.points().len()];
+    for point in cells.iter().flat_map(|&cell| mesh.tetrahedra()[cell as usize]) {
+        is_point_of_one[point as usize] = true;
+    }
+    let has_one = |cell: &u32| {
+        mesh.tetrahedra()[*cell as usize].iter().any(|&point| is_point_of_one[point as usize])
+    };
+    active.par_iter().copied().filter(has_one).collect()
+}
+
+impl SimpleCell {
+    /// Which of [`POLYGONS`] the patch is.
+    fn situation(&self) -> usize {
+        let above = (0..4).filter(|&n| self.signs[n] == Sign::Above);
+        above.fold(usize::from(self.right_handed), |bits, n| bits | 2 << n)
+    }
+
+    /// Where the surface crosses an edge.
+    fn crossing(
+        &self,
+        interpolant: &dyn TetrahedronCubics,
+        level: f64,
+        edge: [u8; 2],
+    ) -> SurfacePoint {
+        let edge = edge.map(usize::from);
+        let [from, to] = edge.map(|n| usize::from(self.order[n]));
+        let line = interpolant.edge(self.number as usize, [from, to]);
+        let line = SegmentCubic::new(line.coefficients.map(|c| c - level));
+        let [start, end] = edge.map(|n| self.signs[n]);
+        let t = crossings(&line, start, end).first().copied().unwrap_or(0.5);
+        let mut at = [0.0; 4];
+        (at[from], at[to]) = (1.0 - t, t);
+        let corners = interpolant.mesh().corners(self.number as usize);
+        let position = corners[from] * (1.0 - t) + corners[to] * t;
+        SurfacePoint { position, cell: self.number, at }
+    }
+}
+
+/// The corner that a triangle has less than a quadrilateral.
+const NONE: u32 = u32::MAX;
+
+/// The edges around each patch, by the situation of its cell.
+static POLYGONS: LazyLock<[ArrayVec<[u8; 2], 4>; 32]> = LazyLock::new(|| {
+    std::array::from_fn(|situation| {
+        let side = |n: usize| if situation & 2 << n == 0 { Sign::Below } else { Sign::Above };
+        let edges = corner_edges([0, 1, 2, 3].map(side), situation & 1 == 1);
+        edges.into_iter().map(|[n, m]| [n.min(m) as u8, n.max(m) as u8]).collect()
+    })
+});
+
+/// Adds the triangles of a polygon, of a quadrilateral cut by its shorter diagonal.
+fn add_polygon([a, b, c, d]: [u32; 4], surface: &mut ContourSurface) {
+    if d == NONE {
+        surface.triangles.push([a, b, c]);
+        return;
+    }
+    let position = |n: u32| surface.points[n as usize].position;
+    let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
+    let triangles =
+        if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+    surface.triangles.extend(triangles);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contour::surface::cell::is_even;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn points_are_sorted(points in prop::array::uniform4(0..6_u32)) {
+            let (order, even) = ascending(points);
+            let order = order.map(usize::from);
+            prop_assert!(order.windows(2).all(|pair| points[pair[0]] <= points[pair[1]]));
+            prop_assert_eq!(even, is_even(&order));
+        }
+    }
+}

@@ -10,6 +10,7 @@ mod lattice;
 mod owner;
 mod patch;
 mod piece;
+mod plateaus;
 mod refinement;
 mod settle;
 mod surface_builder;
@@ -102,6 +103,7 @@ fn cells_at(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64
     let cells: Vec<Option<Cell>> = active.par_iter().map(cell).collect();
     let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
     handedness::settle_slivers(&mut cells);
+    plateaus::settle_plateaus(&mut cells);
     flat_faces::leave_to_patches(&mut cells);
     cells
 }

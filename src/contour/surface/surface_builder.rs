@@ -89,7 +89,7 @@ impl Builder<'_> {
         };
         if place == next {
             add_point(self.surface, self.level, point, chunk.point_cells[n]);
-            if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+            if point.owner.is_on_level() {
                 self.on_level.insert(place);
             }
         }

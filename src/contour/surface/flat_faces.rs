@@ -9,7 +9,7 @@ use super::lattice;
 use super::owner::Owner;
 use super::patch::PatchPoint;
 use super::tessellation::Tessellation;
-use crate::bernstein::{Sign, TetrahedronCubic};
+use crate::bernstein::{Barycentric4, Sign, TetrahedronCubic};
 use crate::interruption::checkpoint;
 
 /// A face on the level.
@@ -54,9 +54,9 @@ pub fn add_flat_faces(cells: &[Cell], sides: u32, tessellation: &mut Tessellatio
     }
 }
 
-/// Whether three points of a cell lie in one of its faces that is on the level.
-pub fn are_in_flat_face(cell: &Cell, points: [&PatchPoint; 3]) -> bool {
-    (0..4).any(|n| cell.flat[n] && points.iter().all(|point| point.at[n] == 0.0))
+/// Whether a triangle lies in one of the faces of its cell that are drawn as a whole.
+pub fn is_in_flat_face(cell: &Cell, corners: &[Barycentric4; 3]) -> bool {
+    (0..4).any(|n| cell.flat[n] && corners.iter().all(|at| at[n] == 0.0))
 }
 
 fn add_face(cell: &Cell, face: &FlatFace, sides: u32, tessellation: &mut Tessellation) {

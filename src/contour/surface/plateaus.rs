@@ -20,8 +20,7 @@ pub fn settle_plateaus(cells: &mut [Cell]) {
     }
     let component = components(plateau.len(), |n| plateau[n]);
     let of_cell = |(points, &component): (&[u32; 4], &usize)| points.map(|p| (p, component));
-    let of_point: HashMap<u32, usize> =
-        plateau.iter().zip(&component).flat_map(of_cell).collect();
+    let of_point: HashMap<u32, usize> = plateau.iter().zip(&component).flat_map(of_cell).collect();
     // whole numbers: the same in whatever order
     let mut around = vec![0_i64; plateau.len()];
     for cell in cells.iter() {

@@ -36,7 +36,7 @@ impl Solution {
         Tricubic::new(&self.mesh, Field { values: &self.values, gradients: &self.gradients })
     }
 
-    fn linear(&self) -> Linear<'_> {
+    fn linear(&self) -> Linear<'_, 4> {
         Linear::new(&self.mesh, &self.values)
     }
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use support::brute_force_3d::{self, Characteristics};
 use support::meshes::Random;
 use support::problems_3d::PROBLEMS;
+use support::surfaces::{area, check_even, on_boundary};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
 use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::surface::{
@@ -16,12 +17,6 @@ use vtu2contour::contour::surface::{
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{TetrahedronCubics, Tricubic};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
-
-/// Whether two points lie in one side of the unit cube.
-fn on_boundary(a: &Vector, b: &Vector) -> bool {
-    let near = |x: f64, side: f64| (x - side).abs() < 1e-12;
-    (0..3).any(|n| [0.0, 1.0].iter().any(|&side| near(a[n], side) && near(b[n], side)))
-}
 
 /// Every edge belongs to two triangles, which run along it in opposite directions, or lies
 /// on the boundary; no triangle is degenerate or doubled, and no point without a triangle.
@@ -173,33 +168,6 @@ fn nothing_is_missed_on_random_data() {
         }
     }
     println!("{finer:?} of 200 needed a finer reference");
-}
-
-/// Every edge inside belongs to an even number of triangles: sheets may meet in an edge.
-fn check_even(surface: &ContourSurface, name: &str) {
-    let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
-    let mut names = std::collections::HashSet::new();
-    for triangle in &surface.triangles {
-        let mut sorted = *triangle;
-        sorted.sort_unstable();
-        assert!(names.insert(sorted), "{name}: doubled");
-        for n in 0..3 {
-            let [a, b] = [triangle[n], triangle[(n + 1) % 3]];
-            *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
-        }
-    }
-    for (edge, balance) in edges {
-        let [a, b] = edge.map(|n| surface.points[n as usize].position);
-        assert!(balance == 0 || on_boundary(&a, &b), "{name}: {balance} at {a} {b}");
-    }
-}
-
-fn area(surface: &ContourSurface) -> f64 {
-    let area = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|n| surface.points[n as usize].position);
-        0.5 * (b - a).cross(&(c - a)).norm()
-    };
-    surface.triangles.iter().map(area).sum()
 }
 
 #[test]

@@ -16,6 +16,7 @@ pub mod problem4;
 pub mod problems_3d;
 pub mod reference;
 pub mod sampling;
+pub mod surfaces;
 pub mod table;
 pub mod table_5_1;
 pub mod table_5_3;

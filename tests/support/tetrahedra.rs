@@ -65,6 +65,28 @@ pub fn shuffled(random: &mut Random, mesh: &TetrahedronMesh) -> TetrahedronMesh<
     TetrahedronMesh::new(mesh.points().to_vec(), tetrahedra).unwrap()
 }
 
+/// The same mesh with points numbered at random and, inside the unit cube, moved by up to
+/// `amount` along each axis; shuffled.
+pub fn renumbered(
+    random: &mut Random,
+    mesh: &TetrahedronMesh,
+    amount: f64,
+) -> TetrahedronMesh<'static> {
+    let mut order: Vec<u32> = (0..mesh.points().len() as u32).collect();
+    shuffle(random, &mut order);
+    let mut points = mesh.points().to_vec();
+    for (point, &number) in mesh.points().iter().zip(&order) {
+        let mut moved = |x: f64| {
+            let is_inside = x > 0.0 && x < 1.0;
+            if is_inside { x + random.uniform(-amount, amount) } else { x }
+        };
+        points[number as usize] = Vector::new(moved(point.x), moved(point.y), moved(point.z));
+    }
+    let named = mesh.tetrahedra().iter().map(|corners| corners.map(|n| order[n as usize]));
+    let tetrahedra = named.collect();
+    shuffled(random, &TetrahedronMesh::new(points, tetrahedra).unwrap())
+}
+
 fn shuffle<T>(random: &mut Random, items: &mut [T]) {
     for end in (1..items.len()).rev() {
         items.swap(end, random.uniform(0.0, end as f64 + 1.0) as usize);

@@ -29,7 +29,7 @@ pub fn points_per_side_within(
         let pieces = settled.pieces.iter();
         let drawn = pieces.filter(|piece| !piece.is_collapsed(&cells[piece.cell as usize]));
         let of_patches: usize = drawn.map(triangles_of).sum();
-        of_patches + flat_faces(&cells).len()
+        of_patches + flat_faces(&cells).count()
     };
     let coarsest: usize = levels.iter().map(of_level).sum();
     let fits = |points: &u32| coarsest * (*points as usize - 1).pow(2) <= triangles;

@@ -29,10 +29,13 @@ pub struct Cell {
     pub cubic: TetrahedronCubic,
     /// Values of the cubic that are no larger may be rounding alone.
     pub noise: f64,
-    /// How the solution rises from each corner into the domain; zero for a corner that is on
-    /// no wall.
-    rises: [f64; 4],
-    /// Which faces, named by the corner opposite, lie on the level as a whole and are drawn so.
+    /// On which side corners on the level count, by their signs: of a wall, that on which the
+    /// solution rises from there into the domain, and how fast; zero for any other corner.
+    pub rises: [f64; 4],
+    /// Whether all of the cell lies on the level.
+    pub is_plateau: bool,
+    /// Which faces, named by the corner opposite, are of the domain's boundary and lie on the
+    /// level as a whole: they are drawn so.
     pub flat: [bool; 4],
     /// Whether the corners, in this order, are those of a right-handed tetrahedron; of a sliver,
     /// by its neighbours.
@@ -59,18 +62,14 @@ impl Cell {
             return None;
         }
         let corners = interpolant.mesh().corners(number as usize);
-        let cubic = interpolant.cubic(number as usize);
-        let values = cubic.vertices();
-        let near = order.map(|place| rounding.at(points[place], values[place]));
+        let above_level = less_level(&interpolant.cubic(number as usize), points, rounding);
+        let is_plateau = above_level.coefficients == [0.0; 20];
         let above_level = TetrahedronCubic::from_coefficients(|exponents| {
             let mut here = [0; 4];
             for (place, exponent) in order.into_iter().zip(exponents) {
                 here[place] = exponent;
             }
-            let difference = cubic.coefficient(here) - rounding.level();
-            // a coefficient of a face belongs to all its corners
-            let own = (0..4).filter(|&n| exponents[n] > 0).map(|n| near[n]);
-            if difference.abs() <= own.fold(0.0, f64::max) { 0.0 } else { difference }
+            above_level.coefficient(here)
         });
         let right_handed = is_right_handed(&corners) == is_even(&order);
         let corners = order.map(|place| corners[place]);
@@ -90,19 +89,21 @@ impl Cell {
             cubic,
             noise,
             rises,
+            is_plateau,
             flat,
             right_handed,
         })
     }
 
     /// The side of the level on which a point counts. On a wall it is the side on which the
-    /// solution lies next to it; elsewhere what is on the level counts as above.
+    /// solution lies next to it, on a plateau that of the plateau; elsewhere what is on the level
+    /// counts as above.
     pub fn sign(&self, at: &Barycentric4) -> Sign {
         let value = self.cubic.value(at);
         Sign::of(if value == 0.0 { self.rise(at) } else { value })
     }
 
-    /// Whether a point is on one side of the level, if only as a point of a wall.
+    /// Whether a point is on one side of the level, if only as a point of a wall or plateau.
     pub fn has_side(&self, at: &Barycentric4) -> bool {
         self.cubic.value(at) != 0.0 || self.rise(at) != 0.0
     }
@@ -123,7 +124,7 @@ impl Cell {
         crossings(&line, start, end)
     }
 
-    /// How the solution rises from a point of a wall into the domain: linear between corners.
+    /// On which side of the level a point that is on it counts: linear between corners.
     fn rise(&self, at: &Barycentric4) -> f64 {
         ((self.rises[0] * at[0] + self.rises[1] * at[1]) + self.rises[2] * at[2])
             + self.rises[3] * at[3]
@@ -143,6 +144,23 @@ impl Cell {
         }
         ordered
     }
+}
+
+/// A cubic less the level, in a cell with the given corners. What rounding alone keeps from the
+/// level is zero.
+pub fn less_level(
+    cubic: &TetrahedronCubic,
+    points: [u32; 4],
+    rounding: &Rounding,
+) -> TetrahedronCubic {
+    let values = cubic.vertices();
+    let near = [0, 1, 2, 3].map(|n| rounding.at(points[n], values[n]));
+    TetrahedronCubic::from_coefficients(|exponents| {
+        let difference = cubic.coefficient(exponents) - rounding.level();
+        // a coefficient of a face belongs to all its corners
+        let own = (0..4).filter(|&n| exponents[n] > 0).map(|n| near[n]);
+        if difference.abs() <= own.fold(0.0, f64::max) { 0.0 } else { difference }
+    })
 }
 
 /// Whether four corners are those of a right-handed tetrahedron, exactly. Corners in one

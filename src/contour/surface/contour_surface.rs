@@ -33,6 +33,9 @@ pub struct SurfaceCounts {
 }
 
 /// Iso-surfaces of all levels.
+///
+/// No triangle has a corner twice and none is there twice, but where sheets meet in a point or an
+/// edge triangles may be so thin that their area is rounding: the surface is closed by them.
 #[derive(Clone, Debug, Default)]
 pub struct ContourSurface {
     /// The levels, ascending.

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::cell::Cell;
 use crate::bernstein::TetrahedronCubic;
+use crate::interruption::checkpoint;
 use crate::mesh::Vector;
 
 /// A cell is a sliver if six times its volume is below this part of its longest edge from one
@@ -30,6 +31,7 @@ pub fn settle_slivers(cells: &mut [Cell]) {
     let at_faces = cells_at_faces(cells, &is_open);
     let mut settled: VecDeque<usize> = (0..cells.len()).filter(|&cell| !is_open[cell]).collect();
     while let Some(from) = settled.pop_front() {
+        checkpoint();
         for opposite in 0..4 {
             let beyond = at_faces.get(&face(&cells[from], opposite)).map_or(&[][..], |c| &c[..]);
             // where more than two cells meet, they cannot all turn the face in opposite directions
@@ -64,6 +66,7 @@ fn cells_at_faces(cells: &[Cell], is_sliver: &[bool]) -> CellsAtFaces {
         at_faces.extend((0..4).map(|opposite| (face(cell, opposite), Vec::new())));
     }
     for (place, cell) in cells.iter().enumerate() {
+        checkpoint();
         for opposite in 0..4 {
             if let Some(cells) = at_faces.get_mut(&face(cell, opposite)) {
                 cells.push(place);

@@ -10,6 +10,7 @@ mod lattice;
 mod owner;
 mod patch;
 mod piece;
+mod plateaus;
 mod refinement;
 mod settle;
 mod simple;
@@ -50,9 +51,15 @@ const CHUNK: usize = 64;
 
 /// The surfaces of `interpolant` at the given levels (finite, ascending).
 ///
-/// Closed, up to the boundary of the mesh: every edge belongs to two triangles. Every
-/// component is found: cells are passed over only where the Bernstein coefficients
-/// exclude a surface, and pieces are drawn only with the A-patch certificate;
+/// Closed, up to the boundary of the mesh: every edge inside belongs to two triangles, or to more
+/// where sheets meet, as many in each direction. The surface is the border of the region
+/// `u >= level`. A plateau (cells that are on the level as a whole, and hang together) is left out
+/// of that region if more is above the level around it than below, so that it is outlined. Faces
+/// of the boundary that are on the level as a whole are drawn besides. Faces inside at which the
+/// level is touched and not crossed are no border, and not drawn.
+///
+/// Every component is found: cells are passed over only where the Bernstein coefficients exclude
+/// a surface, and pieces are drawn only with the A-patch certificate;
 /// [`SurfaceCounts::unresolved`] tells where that failed. All points lie on their level to
 /// rounding. The result does not depend on the number of threads.
 ///
@@ -128,6 +135,7 @@ fn cells_at(
     let cells: Vec<Option<Cell>> = numbers.par_iter().map(cell).collect();
     let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
     handedness::settle_slivers(&mut cells);
+    plateaus::settle_plateaus(&mut cells);
     flat_faces::leave_to_patches(&mut cells);
     cells
 }

@@ -24,6 +24,13 @@ pub enum Owner {
         /// The bits of the higher vertex's weight.
         weight: u64,
     },
+    /// A point of a face that lies on the level as a whole.
+    OnFace {
+        /// The face's vertices, ascending.
+        vertices: [u32; 3],
+        /// The bits of the weights of the last two.
+        weights: [u64; 2],
+    },
     /// Where a face's ray crosses the level.
     Face {
         /// The vertex from which the face's rays run.
@@ -37,4 +44,11 @@ pub enum Owner {
     },
     /// A point of its patch alone.
     Patch,
+}
+
+impl Owner {
+    /// Whether it lies on the level as a whole.
+    pub fn is_on_level(&self) -> bool {
+        matches!(self, Self::Vertex(_) | Self::OnEdge { .. } | Self::OnFace { .. })
+    }
 }

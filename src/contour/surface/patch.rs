@@ -102,6 +102,10 @@ impl Patch<'_> {
             [low, high] => {
                 Owner::OnEdge { low: vertex(low), high: vertex(high), weight: ray[high].to_bits() }
             }
+            [a, b, c] => Owner::OnFace {
+                vertices: [a, b, c].map(vertex),
+                weights: [b, c].map(|n| ray[n].to_bits()),
+            },
             _ => Owner::Patch,
         }
     }

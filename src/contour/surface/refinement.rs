@@ -199,7 +199,7 @@ impl Refinement<'_> {
         let mut middles = HashMap::with_capacity_and_hasher(marked.len(), Default::default());
         for (&(name, place, _), point) in marked.iter().zip(found) {
             // a ray that ends on the level leads to a point that is there already
-            if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+            if point.owner.is_on_level() {
                 self.coarse += 1;
             } else {
                 middles.insert(name, self.first_point + self.points.len() as u32);

@@ -4,7 +4,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cell::{Cell, is_even};
 use super::contour_surface::{ContourSurface, SurfacePoint};
-use super::flat_faces::are_in_flat_face;
+use super::flat_faces::is_in_flat_face;
 use super::owner::Owner;
 use super::patch::PatchPoint;
 use super::piece::Piece;
@@ -44,9 +44,9 @@ pub fn add_level(
     let mut builder =
         Builder { surface, level, crossings, places, facets, on_level, collapsed: false };
     for chunk in patches {
-        builder.add(chunk, true);
+        builder.add(chunk);
     }
-    builder.add(flat_faces, false);
+    builder.add(flat_faces);
     builder.finish(first_of_builder);
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
@@ -68,7 +68,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn add(&mut self, chunk: &Tessellation, without_flat_faces: bool) {
+    fn add(&mut self, chunk: &Tessellation) {
         let places: Vec<u32> = (0..chunk.points.len()).map(|n| self.place(chunk, n)).collect();
         let mut patches = chunk.patches.iter().peekable();
         let mut piece = None;
@@ -79,15 +79,12 @@ impl Builder<'_> {
             let corners = triangle.map(|point| places[point as usize]);
             let points = triangle.map(|point| &chunk.points[point as usize]);
             let cell = chunk.point_cells[triangle[0] as usize];
-            let of_cell = &self.level.cells[cell as usize];
-            if !(without_flat_faces && are_in_flat_face(of_cell, points)) {
-                let rays = triangle.map(|point| chunk.rays[point as usize]);
-                let at = points.map(|point| point.at);
-                let facet = Facet { corners, piece, rays, at, cell };
-                let is_on_level = corners.iter().all(|corner| self.on_level.contains(corner));
-                self.collapsed |= is_on_level || is_collapsed(&facet);
-                self.facets.push(facet);
-            }
+            let rays = triangle.map(|point| chunk.rays[point as usize]);
+            let at = points.map(|point| point.at);
+            let facet = Facet { corners, piece, rays, at, cell };
+            let is_on_level = corners.iter().all(|corner| self.on_level.contains(corner));
+            self.collapsed |= is_on_level || is_collapsed(&facet);
+            self.facets.push(facet);
         }
     }
 
@@ -106,7 +103,7 @@ impl Builder<'_> {
         };
         if place == next {
             add_point(self.surface, self.level, point, chunk.point_cells[n]);
-            if matches!(point.owner, Owner::Vertex(_) | Owner::OnEdge { .. }) {
+            if point.owner.is_on_level() {
                 self.on_level.insert(place);
             }
         }
@@ -136,6 +133,9 @@ impl Builder<'_> {
             self.surface.counts.coarse += coarse;
         }
         // not before: what is thin may have an inside that refinement finds
+        let cells = self.level.cells;
+        let is_drawn = |facet: &Facet| is_drawn_as_face(facet, &cells[facet.cell as usize]);
+        self.facets.retain(|facet| !is_drawn(facet));
         if self.collapsed {
             self.facets.retain(|facet| !is_collapsed(facet));
             drop_doubles(&mut self.facets);
@@ -173,6 +173,11 @@ impl Builder<'_> {
             });
         }
     }
+}
+
+/// Whether a triangle of a patch lies in a face that is drawn as a whole.
+fn is_drawn_as_face(facet: &Facet, cell: &Cell) -> bool {
+    facet.piece.is_some() && is_in_flat_face(cell, &facet.at)
 }
 
 /// Whether corners fell together on the level.

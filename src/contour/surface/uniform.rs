@@ -3,6 +3,7 @@
 use super::lattice;
 use super::patch::{Patch, Ray};
 use super::tessellation::{Tessellation, corners};
+use crate::mesh::Vector;
 
 /// Adds the triangles of a patch with `points` points on each side, two at least
 /// (thesis, table 5.9): `(n - 1)²` triangles, or `2 (n - 1)²` of a four-sided patch.
@@ -44,11 +45,22 @@ fn four_sided(patch: &Patch, corners: [Ray; 4], sides: u32, tessellation: &mut T
     }
 }
 
-/// Adds a quadrilateral, cut by its shorter diagonal.
+/// Adds a quadrilateral, cut by its shorter diagonal; by the other one if a triangle would have no
+/// area, as where three corners are on an edge of the mesh that is on the level.
 fn add_quadrilateral([a, b, c, d]: [u32; 4], tessellation: &mut Tessellation) {
     let position = |n: u32| tessellation.points[n as usize].position;
     let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
-    if length(a, c) <= length(b, d) {
+    let has_area = |from: u32, to: u32, beside: u32| {
+        let [along, across] = [to, beside].map(|n| position(n) - position(from));
+        along.cross(&across) != Vector::zeros()
+    };
+    let leaves_area = |from: u32, to: u32| {
+        [a, b, c, d].iter().filter(|&&n| n != from && n != to).all(|&n| has_area(from, to, n))
+    };
+    let first_is_shorter = length(a, c) <= length(b, d);
+    let [shorter, longer] = if first_is_shorter { [[a, c], [b, d]] } else { [[b, d], [a, c]] };
+    let takes_shorter = leaves_area(shorter[0], shorter[1]) || !leaves_area(longer[0], longer[1]);
+    if takes_shorter == first_is_shorter {
         tessellation.triangles.extend([[a, b, c], [a, c, d]]);
     } else {
         tessellation.triangles.extend([[a, b, d], [b, c, d]]);

@@ -15,6 +15,7 @@ use std::collections::{HashMap, HashSet};
 
 use rayon::prelude::*;
 
+use super::cell::less_level;
 use crate::bernstein::TetrahedronCubic;
 use crate::contour::CellRanges;
 use crate::contour::components::components;
@@ -196,7 +197,7 @@ impl Walls {
     }
 }
 
-/// The faces of a cell with all corners on the level.
+/// The faces of a cell with all corners on the level; none of a plateau, which is exact as it is.
 fn candidates(
     interpolant: &dyn TetrahedronCubics,
     rounding: &Rounding,
@@ -204,10 +205,12 @@ fn candidates(
 ) -> impl Iterator<Item = Candidate> {
     let points = interpolant.mesh().tetrahedra()[cell];
     let cubic = interpolant.cubic(cell);
+    let is_plateau = less_level(&cubic, points, rounding).coefficients == [0.0; 20];
     let values = cubic.vertices();
     let on_level = [0, 1, 2, 3].map(|n| rounding.is_on_level(points[n], values[n]));
     let count = on_level.iter().filter(|on_level| **on_level).count();
-    let opposite = (0..4).filter(move |&n| count == 4 || (count == 3 && !on_level[n]));
+    let is_candidate = move |&n: &usize| count == 4 || (count == 3 && !on_level[n]);
+    let opposite = (0..4).filter(move |n| !is_plateau && is_candidate(n));
     let level = rounding.level();
     opposite.map(move |opposite| candidate(&cubic, points, opposite, level))
 }

@@ -105,7 +105,7 @@ fn steps_are_closed() {
 /// (y - x)² (x + y - c): the level is touched in a plane of faces, and crossed in another one.
 #[test]
 fn double_planes_are_closed() {
-    check_all("double plane", 2, |random| {
+    check_all("double plane", 1, |random| {
         let mesh = renumbered(random, &kuhn_grid(2), 0.0);
         let from = [0.5, 0.3, 1.0, 0.75][random.uniform(0.0, 4.0) as usize];
         Solution::of(mesh, |p| {
@@ -119,7 +119,7 @@ fn double_planes_are_closed() {
 /// Values and gradients of -1, 0 and 1, many of them zero: all that lies on a level by chance.
 #[test]
 fn whole_numbers_are_closed() {
-    check_all("whole numbers", 6, |random| {
+    check_all("whole numbers", 4, |random| {
         let points = 8 + random.uniform(0.0, 8.0) as usize;
         let mesh = match random.uniform(0.0, 2.0) as usize {
             0 => grid(random, 2),
@@ -142,7 +142,7 @@ fn whole_numbers_are_closed() {
 /// Numbers of parts: plateaus in the form of voxels.
 #[test]
 fn parts_are_closed() {
-    check_all("parts", 6, |random| {
+    check_all("parts", 4, |random| {
         let mesh = grid(random, 3);
         let zeros = random.uniform(0.2, 0.9);
         Solution::of(mesh, |_| {
@@ -189,7 +189,7 @@ fn neither_threads_nor_the_order_of_points_matter() {
         let surface = pool.install(|| at_zero(f, fineness));
         (surface.points, surface.triangles, surface.cells)
     };
-    for seed in 0..8 {
+    for seed in 0..3 {
         let mut random = Random(seed);
         let mesh = kuhn_grid(3);
         let number_at = |p: &Vector| {

@@ -222,13 +222,18 @@ impl LinkedTriangles {
         robust::incircle(a, b, c, coord(place)) > 0.0
     }
 
-    /// Whether an edge has to be turned: the corner beyond is inside the circle.
+    /// Whether an edge has to be turned: the corner beyond is inside the circle. By more than
+    /// rounding: else mirrored edges would not be turned alike.
     pub fn is_bad(&self, (triangle, corner): (u32, usize)) -> bool {
-        if self.triangle(triangle).borders[corner].is_kept {
+        let Linked { points, borders, .. } = self.triangle(triangle);
+        if borders[corner].is_kept {
             return false;
         }
         let Some((beyond, opposite)) = self.twin((triangle, corner)) else { return false };
-        self.is_in_circle(triangle, self.position(self.triangle(beyond).points[opposite]))
+        let far = self.position(self.triangle(beyond).points[opposite]);
+        let near = self.position(points[corner]);
+        let [a, b] = self.triangle(triangle).edge(corner).map(|point| self.position(point));
+        self.is_in_circle(triangle, far) && !is_on_circle(a, b, near, far)
     }
 
     /// Adds a point inside a triangle. Returns the edges opposite to it.
@@ -347,6 +352,20 @@ fn coord(point: Point2<f64>) -> robust::Coord<f64> {
 /// Positive if three places are counter-clockwise, zero if they are on a line.
 pub fn orientation(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
+}
+
+/// What is closer than this, relative to its size, is the same.
+const SAME: f64 = 1e-9;
+
+/// Whether four points lie on a circle, as far as rounding can tell: the angles at `c` and `d`
+/// over the edge from `a` to `b` make 180 degrees.
+pub fn is_on_circle(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
+    let angle = |at: Point2<f64>| {
+        let dot = (a.x - at.x) * (b.x - at.x) + (a.y - at.y) * (b.y - at.y);
+        let doubled = (a.x - at.x) * (b.y - at.y) - (a.y - at.y) * (b.x - at.x);
+        doubled.abs().atan2(dot)
+    };
+    (angle(c) + angle(d) - std::f64::consts::PI).abs() < SAME
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@
 use spade::Point2;
 
 use super::curve::mix;
-use super::linked::{LinkedTriangles, orientation};
+use super::linked::{LinkedTriangles, is_on_circle, orientation};
 use super::triangulation::cross;
 
 /// What is closer than this, relative to its size, is the same.
@@ -93,16 +93,6 @@ fn on_one_circle(cells: &LinkedTriangles, first: u32, is_seen: &mut [bool]) -> V
         }
     }
     parts
-}
-
-/// Whether four points lie on a circle, as far as rounding can tell: the angles at `c` and `d`
-/// over the edge from `a` to `b` make 180 degrees.
-fn is_on_circle(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
-    let angle = |at: Point2<f64>| {
-        let dot = (a.x - at.x) * (b.x - at.x) + (a.y - at.y) * (b.y - at.y);
-        cross(at, a, b).abs().atan2(dot)
-    };
-    (angle(c) + angle(d) - std::f64::consts::PI).abs() < SAME
 }
 
 /// Points on a circle, counter-clockwise, that of the lowest number first.

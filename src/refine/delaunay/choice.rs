@@ -99,7 +99,7 @@ const CONFLICT: f64 = 0.5;
 /// The additions without those that conflict, in their order. Those further from all points come
 /// first. Of equally far ones that conflict, as on both sides of a line of symmetry, none is
 /// preferred: they become one point, amid them.
-pub fn without_conflicts(triangulation: &Triangulation, additions: Vec<Addition>) -> Vec<Addition> {
+pub fn without_conflicts(additions: Vec<Addition>) -> Vec<Addition> {
     let mut kept: Vec<(usize, Addition)> = Vec::with_capacity(additions.len());
     let mut halved = HashSet::new();
     let mut inside = Vec::with_capacity(additions.len());
@@ -116,8 +116,8 @@ pub fn without_conflicts(triangulation: &Triangulation, additions: Vec<Addition>
     inside.par_sort_by(|one, other| other.radius.total_cmp(&one.radius));
     let mut accepted = Nearby::default();
     for equal in inside.chunk_by(|one, next| next.radius >= one.radius * (1.0 - SAME)) {
-        let free = equal.iter().filter(|one| accepted.conflicts(triangulation, one).is_empty());
-        for cluster in clusters(triangulation, free) {
+        let free = equal.iter().filter(|one| accepted.conflicts(one).is_empty());
+        for cluster in clusters(free) {
             let one = merged(&cluster);
             kept.push((one.order, one.addition()));
             accepted.add(one);
@@ -142,44 +142,60 @@ impl Inside {
     }
 }
 
-/// Points to be added, by the faces that hold them.
+/// Points to be added, by where they are: in squares about as large as their radius. Faces would
+/// not do: a place on an edge is in either.
 #[derive(Default)]
 struct Nearby {
     points: Vec<Inside>,
-    by_face: HashMap<FaceNumber, Vec<usize>>,
+    by_square: HashMap<Square, Vec<usize>>,
+    levels: Vec<i32>,
 }
+
+/// A square: the power of two that is its side, and which it is.
+type Square = (i32, [i64; 2]);
 
 impl Nearby {
     fn add(&mut self, one: Inside) {
-        self.by_face.entry(one.face).or_default().push(self.points.len());
+        let level = one.radius.log2().floor() as i32;
+        if !self.levels.contains(&level) {
+            self.levels.push(level);
+        }
+        self.by_square.entry(square(one.place, level)).or_default().push(self.points.len());
         self.points.push(one);
     }
 
-    /// The places of those that are too near, in the same face or in one beside it.
-    fn conflicts(&self, triangulation: &Triangulation, one: &Inside) -> Vec<usize> {
-        let faces = [one.face].into_iter().chain(triangulation.neighbours(one.face));
-        let others = faces.filter_map(|face| self.by_face.get(&face)).flatten().copied();
+    /// The places in the list of those that are too near. None has a smaller radius.
+    fn conflicts(&self, one: &Inside) -> Vec<usize> {
+        let squares = self.levels.iter().flat_map(|&level| {
+            let (_, [i, j]) = square(one.place, level);
+            let steps = (0..9)
+                .map(move |step| [i.saturating_add(step % 3 - 1), j.saturating_add(step / 3 - 1)]);
+            steps.map(move |place| (level, place))
+        });
+        let others = squares.filter_map(|square| self.by_square.get(&square)).flatten().copied();
         let is_near = |&other: &usize| {
             let other = &self.points[other];
             let distance = one.place.distance_2(other.place).sqrt();
-            distance < CONFLICT * one.radius.min(other.radius)
+            distance < CONFLICT * one.radius.min(other.radius) * (1.0 - SAME)
         };
         others.filter(is_near).collect()
     }
 }
 
+fn square(place: Point2<f64>, level: i32) -> Square {
+    let side = f64::from(level).exp2();
+    (level, [place.x, place.y].map(|x| (x / side).floor() as i64))
+}
+
 /// Those that conflict with each other, together, in the order of the first of each.
-fn clusters<'a>(
-    triangulation: &Triangulation,
-    points: impl Iterator<Item = &'a Inside>,
-) -> Vec<Vec<Inside>> {
+fn clusters<'a>(points: impl Iterator<Item = &'a Inside>) -> Vec<Vec<Inside>> {
     let mut nearby = Nearby::default();
     // one of the same cluster that came before, or the point itself
     let mut earlier: Vec<usize> = Vec::new();
     for &point in points {
         let place = earlier.len();
         earlier.push(place);
-        for other in nearby.conflicts(triangulation, &point) {
+        for other in nearby.conflicts(&point) {
             let [one, other] = [place, other].map(|point| first(&earlier, point));
             earlier[one.max(other)] = one.min(other);
         }

@@ -198,7 +198,7 @@ impl<'a> Job<'a> {
             let face = face.filter(is_old);
             face.map_or_else(Vec::new, |face| by_thesis(&self.triangulation, &face))
         });
-        without_conflicts(&self.triangulation, additions.collect())
+        without_conflicts(additions.collect())
     }
 
     /// Adds points, `room` of them at most; returns how many.

@@ -32,7 +32,7 @@ pub fn improvements(
             && !is_given(triangulation, face)
     });
     let additions = bad.flat_map_iter(|face| for_angle(triangulation, &face)).collect();
-    without_conflicts(triangulation, additions)
+    without_conflicts(additions)
 }
 
 /// The length of the edge opposite a corner.

@@ -444,19 +444,13 @@ fn samples<const CORNERS: usize>(
     cubics: &(impl Pieces<CORNERS> + ?Sized),
 ) -> Vec<Sample> {
     let first = refined.points.len() - refined.new_points.len();
-    let mut holders: Vec<(u32, u32)> = Vec::new();
-    for (corners, &parent) in refined.cells.iter().zip(&refined.parents) {
-        let new = corners.iter().filter_map(|&corner| (corner as usize).checked_sub(first));
-        holders.extend(new.map(|point| (point as u32, parent)));
-    }
-    holders.par_sort_unstable();
-    holders.dedup();
+    let (parents, starts) = parents_around(refined, first);
     let nearest = std::sync::LazyLock::new(|| PointLocator::new(mesh));
     let sample = |(point, place): (usize, &NewPoint<CORNERS>)| -> Sample {
-        let begin = holders.partition_point(|holder| (holder.0 as usize) < point);
-        let around = holders[begin..].iter().take_while(|holder| holder.0 as usize == point);
+        let around = &parents[starts[point]..starts[point + 1]];
         let within = |cell: u32| Some((cell as usize, weights(mesh, cell, place)?));
-        let mut places: Vec<_> = around.filter_map(|&(_, cell)| within(cell)).collect();
+        let each = around.chunk_by(|one, next| one == next);
+        let mut places: Vec<_> = each.filter_map(|same| within(same[0])).collect();
         if let (NewPoint::Inside { cell, at }, true) = (place, places.is_empty()) {
             places.push((*cell as usize, *at));
         } else if places.is_empty() {
@@ -484,6 +478,34 @@ fn samples<const CORNERS: usize>(
         (point, taylor.value, taylor.gradient)
     });
     moved.chain(refined.new_points.par_iter().enumerate().map(sample)).collect()
+}
+
+/// The parents of the cells around each new point, ascending, some more than once; and where those
+/// of each point begin.
+fn parents_around<const CORNERS: usize>(
+    refined: &Refinement<CORNERS>,
+    first: usize,
+) -> (Vec<u32>, Vec<usize>) {
+    let all = || {
+        refined.cells.iter().zip(&refined.parents).flat_map(|(corners, &parent)| {
+            let new = corners.iter().filter_map(|&corner| (corner as usize).checked_sub(first));
+            new.map(move |point| (point, parent))
+        })
+    };
+    let mut starts = vec![0; refined.new_points.len() + 2];
+    all().for_each(|(point, _)| starts[point + 2] += 1);
+    for point in 2..starts.len() {
+        starts[point] += starts[point - 1];
+    }
+    let mut parents = vec![0; starts[starts.len() - 1]];
+    for (point, parent) in all() {
+        parents[starts[point + 1]] = parent;
+        starts[point + 1] += 1;
+    }
+    for bounds in starts.windows(2) {
+        parents[bounds[0]..bounds[1]].sort_unstable();
+    }
+    (parents, starts)
 }
 
 /// Where a place is in a cell, by the weights of its corners; nothing if these do not have it.

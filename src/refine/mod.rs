@@ -10,6 +10,7 @@
 
 mod centroid;
 pub mod delaunay;
+mod edge_hasher;
 mod longest_edge;
 mod marked_tetrahedron;
 mod marks;

@@ -6,10 +6,9 @@
 //! tetrahedra are bisected again in one step is bounded; so new points may lie on edges that
 //! are new themselves.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
+use super::edge_hasher::EdgeMap;
 use super::marked_tetrahedron::{MarkedTetrahedron, TetrahedronMarks};
 use super::{Marks, NewPoint, RefineError, Refinement};
 use crate::interruption::checkpoint;
@@ -143,7 +142,7 @@ struct Bisection<'a> {
     tetrahedra: Vec<MarkedTetrahedron>,
     parents: Vec<u32>,
     /// The middles of divided edges.
-    middles: HashMap<[u32; 2], u32>,
+    middles: EdgeMap<u32>,
     /// The divided edges, in the order of their middles.
     edges: Vec<[u32; 2]>,
     /// The last round in which an edge at each point was divided.
@@ -156,7 +155,7 @@ impl<'a> Bisection<'a> {
             mesh,
             tetrahedra: tetrahedra.to_vec(),
             parents: (0..tetrahedra.len() as u32).collect(),
-            middles: HashMap::new(),
+            middles: EdgeMap::default(),
             edges: Vec::new(),
             rounds: vec![0; mesh.points().len()],
         }

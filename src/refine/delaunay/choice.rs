@@ -1,7 +1,8 @@
 //! Which point is added for a triangle.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
+use rayon::prelude::*;
 use spade::Point2;
 
 use super::curve::mix;
@@ -23,8 +24,6 @@ pub enum Addition {
         place: Point2<f64>,
         /// The face that holds it now.
         face: FaceNumber,
-        /// A point near it.
-        near: u32,
         /// How far it is from all points.
         radius: f64,
     },
@@ -45,23 +44,24 @@ pub fn by_thesis(triangulation: &Triangulation, face: &Face) -> Vec<Addition> {
         if !encroached.is_empty() {
             return encroached.into_iter().map(|edge| halve(triangulation, edge)).collect();
         }
-        let near = face.points[0];
-        return vec![Addition::Inside { place: centre, face: holder, near, radius }];
+        return vec![Addition::Inside { place: centre, face: holder, radius }];
     }
     let (length, _) = longest_edge(face);
     let kept = [[0, 1], [1, 2], [2, 0]].into_iter().filter(|&[i, j]| {
         face.corners[i].distance_2(face.corners[j]).sqrt() >= length * (1.0 - SAME)
     });
-    let mut kept = kept
+    let kept = kept
         .map(|[i, j]| sorted([face.points[i], face.points[j]]))
         .filter(|edge| triangulation.features.contains_key(edge));
-    if let Some(edge) = kept.next() {
-        return vec![halve(triangulation, edge)];
+    // of two that are equally long, neither is preferred
+    let halved: Vec<Addition> = kept.map(|edge| halve(triangulation, edge)).collect();
+    if !halved.is_empty() {
+        return halved;
     }
     let place = centroid(&face.corners);
     let nearest = face.corners.iter().map(|corner| corner.distance_2(place));
     let radius = nearest.fold(f64::INFINITY, f64::min).sqrt();
-    vec![Addition::Inside { place, face: face.number, near: face.points[0], radius }]
+    vec![Addition::Inside { place, face: face.number, radius }]
 }
 
 /// Halving a feature because a mark asks for it.
@@ -96,43 +96,132 @@ pub fn circle(face: &Face) -> Circle {
 /// triangles are refined by one of them.
 const CONFLICT: f64 = 0.5;
 
-/// The additions without those that conflict. A pair that conflicts becomes one point, in the
-/// middle between both, so that neither is preferred; a third one goes.
-pub fn without_conflicts(triangulation: &Triangulation, additions: Vec<Addition>) -> Vec<Addition> {
-    let mut kept: Vec<(Addition, bool)> = Vec::with_capacity(additions.len());
-    let mut by_face: HashMap<FaceNumber, Vec<usize>> = HashMap::new();
-    let mut halved = std::collections::HashSet::new();
-    for addition in additions {
-        let Addition::Inside { place, face, near, radius } = addition else {
-            let Addition::Halve { edge, .. } = addition else { continue };
-            if halved.insert(edge) {
-                kept.push((addition, false));
+/// The additions without those that conflict, in their order. Those further from all points come
+/// first. Of equally far ones that conflict, as on both sides of a line of symmetry, none is
+/// preferred: they become one point, amid them.
+pub fn without_conflicts(additions: Vec<Addition>) -> Vec<Addition> {
+    let mut kept: Vec<(usize, Addition)> = Vec::with_capacity(additions.len());
+    let mut halved = HashSet::new();
+    let mut inside = Vec::with_capacity(additions.len());
+    for (order, addition) in additions.into_iter().enumerate() {
+        match addition {
+            Addition::Halve { edge, .. } if !halved.insert(edge) => {}
+            Addition::Halve { .. } => kept.push((order, addition)),
+            Addition::Inside { place, face, radius } => {
+                inside.push(Inside { order, place, face, radius });
             }
-            continue;
-        };
-        let around = [face].into_iter().chain(triangulation.neighbours(face));
-        let others = around.filter_map(|face| by_face.get(&face)).flatten();
-        let conflict = others.copied().find(|&other| match kept[other].0 {
-            Addition::Inside { place: there, radius: other, .. } => {
-                place.distance_2(there).sqrt() < CONFLICT * radius.min(other)
-            }
-            Addition::Halve { .. } => false,
-        });
-        match conflict {
-            None => {
-                by_face.entry(face).or_default().push(kept.len());
-                kept.push((addition, false));
-            }
-            Some(other) if !kept[other].1 => {
-                if let Addition::Inside { place: there, radius: r, .. } = kept[other].0 {
-                    let between = if place == there { place } else { mix(there, place, 0.5) };
-                    let radius = radius.min(r);
-                    let merged = Addition::Inside { place: between, face, near, radius };
-                    kept[other] = (merged, true);
-                }
-            }
-            Some(_) => {}
         }
     }
-    kept.into_iter().map(|(addition, _)| addition).collect()
+    // stable: of equal ones the first that is asked for comes first
+    inside.par_sort_by(|one, other| other.radius.total_cmp(&one.radius));
+    let mut accepted = Nearby::default();
+    for equal in inside.chunk_by(|one, next| next.radius >= one.radius * (1.0 - SAME)) {
+        let free = equal.iter().filter(|one| accepted.conflicts(one).is_empty());
+        for cluster in clusters(free) {
+            let one = merged(&cluster);
+            kept.push((one.order, one.addition()));
+            accepted.add(one);
+        }
+    }
+    kept.par_sort_by_key(|&(order, _)| order);
+    kept.into_iter().map(|(_, addition)| addition).collect()
+}
+
+/// A point to be added inside the domain: see [`Addition::Inside`].
+#[derive(Clone, Copy, Debug)]
+struct Inside {
+    order: usize,
+    place: Point2<f64>,
+    face: FaceNumber,
+    radius: f64,
+}
+
+impl Inside {
+    fn addition(self) -> Addition {
+        Addition::Inside { place: self.place, face: self.face, radius: self.radius }
+    }
+}
+
+/// Points to be added, by where they are: in squares about as large as their radius. Faces would
+/// not do: a place on an edge is in either.
+#[derive(Default)]
+struct Nearby {
+    points: Vec<Inside>,
+    by_square: HashMap<Square, Vec<usize>>,
+    levels: Vec<i32>,
+}
+
+/// A square: the power of two that is its side, and which it is.
+type Square = (i32, [i64; 2]);
+
+impl Nearby {
+    fn add(&mut self, one: Inside) {
+        let level = one.radius.log2().floor() as i32;
+        if !self.levels.contains(&level) {
+            self.levels.push(level);
+        }
+        self.by_square.entry(square(one.place, level)).or_default().push(self.points.len());
+        self.points.push(one);
+    }
+
+    /// The places in the list of those that are too near. None has a smaller radius.
+    fn conflicts(&self, one: &Inside) -> Vec<usize> {
+        let squares = self.levels.iter().flat_map(|&level| {
+            let (_, [i, j]) = square(one.place, level);
+            let steps = (0..9)
+                .map(move |step| [i.saturating_add(step % 3 - 1), j.saturating_add(step / 3 - 1)]);
+            steps.map(move |place| (level, place))
+        });
+        let others = squares.filter_map(|square| self.by_square.get(&square)).flatten().copied();
+        let is_near = |&other: &usize| {
+            let other = &self.points[other];
+            let distance = one.place.distance_2(other.place).sqrt();
+            distance < CONFLICT * one.radius.min(other.radius) * (1.0 - SAME)
+        };
+        others.filter(is_near).collect()
+    }
+}
+
+fn square(place: Point2<f64>, level: i32) -> Square {
+    let side = f64::from(level).exp2();
+    (level, [place.x, place.y].map(|x| (x / side).floor() as i64))
+}
+
+/// Those that conflict with each other, together, in the order of the first of each.
+fn clusters<'a>(points: impl Iterator<Item = &'a Inside>) -> Vec<Vec<Inside>> {
+    let mut nearby = Nearby::default();
+    // one of the same cluster that came before, or the point itself
+    let mut earlier: Vec<usize> = Vec::new();
+    for &point in points {
+        let place = earlier.len();
+        earlier.push(place);
+        for other in nearby.conflicts(&point) {
+            let [one, other] = [place, other].map(|point| first(&earlier, point));
+            earlier[one.max(other)] = one.min(other);
+        }
+        nearby.add(point);
+    }
+    let mut clusters: Vec<Vec<Inside>> = vec![Vec::new(); earlier.len()];
+    for (place, &point) in nearby.points.iter().enumerate() {
+        clusters[first(&earlier, place)].push(point);
+    }
+    clusters.retain(|cluster| !cluster.is_empty());
+    clusters
+}
+
+fn first(earlier: &[usize], mut point: usize) -> usize {
+    while earlier[point] != point {
+        point = earlier[point];
+    }
+    point
+}
+
+/// The point amid some; where all are at one place, that place.
+fn merged(cluster: &[Inside]) -> Inside {
+    let (first, rest) = (&cluster[0], &cluster[1..]);
+    let count = cluster.len() as f64;
+    let mean = |of: fn(&Inside) -> f64| cluster.iter().map(of).sum::<f64>() / count;
+    let is_same = rest.iter().all(|one| one.place == first.place);
+    let amid = Point2::new(mean(|one| one.place.x), mean(|one| one.place.y));
+    Inside { place: if is_same { first.place } else { amid }, ..*first }
 }

@@ -63,6 +63,7 @@ impl DelaunayError {
                 Self::DuplicatePoints { first: number(first), second: number(second) }
             }
             Self::CrossingEdges { ends } => Self::CrossingEdges { ends: ends.map(number) },
+            Self::Branching { ends } => Self::Branching { ends: ends.map(number) },
             other => other,
         }
     }

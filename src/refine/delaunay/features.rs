@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::DelaunayError;
-use crate::mesh::TriangleMesh;
+use super::linked::{LinkedTriangles, Pair};
 
 /// A part of an edge of the input that is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,45 +33,24 @@ pub fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// All edges of the mesh, and of them those that are kept. `is_turned` tells of each cell
-/// whether its corners run clockwise; `regions` is one number a cell, or empty.
-///
-/// # Errors
-/// If an edge belongs to more than two cells, or two cells lie on the same side of one.
-pub fn edges_and_features(
-    mesh: &TriangleMesh,
-    regions: &[u32],
-    is_turned: impl Fn(usize) -> bool,
-) -> Result<(Vec<[usize; 2]>, Features), DelaunayError> {
-    let mut sides: Vec<([u32; 2], bool, u32)> = Vec::with_capacity(3 * mesh.triangles().len());
-    for (cell, &[a, b, c]) in mesh.triangles().iter().enumerate() {
-        let region = regions.get(cell).copied().unwrap_or(0);
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            sides.push((sorted([from, to]), (from < to) == is_turned(cell), region));
-        }
-    }
-    rayon::slice::ParallelSliceMut::par_sort_unstable(&mut sides[..]);
-    let mut edges = Vec::with_capacity(sides.len() / 2 + 1);
-    let mut features = Features::new();
-    for group in sides.chunk_by(|one, next| one.0 == next.0) {
-        let edge = group[0].0;
-        edges.push(edge.map(|point| point as usize));
-        let mut beside = [None; 2];
-        for &(_, is_right, region) in group {
-            if beside[usize::from(is_right)].replace(region).is_some() {
-                return Err(match group.len() {
-                    2 => DelaunayError::CrossingEdges { ends: edge },
-                    _ => DelaunayError::Branching { ends: edge },
-                });
-            }
-        }
-        if beside[0] == beside[1] {
-            continue;
-        }
-        features
-            .insert(edge, Feature { sides: beside, edge, span: [0.0, 1.0], halvings: HALVINGS });
-    }
-    Ok((edges, features))
+/// Whether an edge of cells is kept: on the boundary, or between different regions.
+pub fn is_kept(pair: &Pair, cells: &LinkedTriangles) -> bool {
+    let [left, right] = sides(pair, cells);
+    left != right
+}
+
+/// The features that these edges of cells are. `used` are the mesh's numbers of the points.
+pub fn features(kept: &[Pair], cells: &LinkedTriangles, used: &[u32]) -> Features {
+    let feature = |pair: &Pair| {
+        let edge = pair.ends.map(|end| used[end as usize]);
+        let sides = sides(pair, cells);
+        (pair.ends, Feature { sides, edge, span: [0.0, 1.0], halvings: HALVINGS })
+    };
+    kept.iter().map(feature).collect()
+}
+
+fn sides(pair: &Pair, cells: &LinkedTriangles) -> [Side; 2] {
+    pair.sides.map(|side| side.and_then(|(cell, _)| cells.triangle(cell).side))
 }
 
 /// Refuses a boundary that touches itself: at such a point it has more than two edges.
@@ -109,38 +88,35 @@ impl Feature {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::mesh::Vector;
+    use spade::Point2;
 
-    #[test]
-    fn boundary_and_interface_by_hand() {
-        let mesh = TriangleMesh::new(vec![Vector::zeros(); 4], vec![[0, 1, 2], [2, 1, 3]]).unwrap();
-        let (edges, features) = edges_and_features(&mesh, &[7, 8], |_| false).unwrap();
-        assert_eq!(edges.len(), 5);
-        assert_eq!(features.len(), 5);
-        assert_eq!(features[&[1, 2]].sides, [Some(7), Some(8)]);
-        assert_eq!(features[&[0, 2]].sides, [None, Some(7)]);
-        let (_, features) = edges_and_features(&mesh, &[], |_| false).unwrap();
-        assert!(!features.contains_key(&[1, 2]));
-        let halves = features[&[0, 2]].halves(1)[1].halves(0);
-        assert_eq!(halves[0].span, [1.0, 0.75]);
-        assert_eq!(halves[1].sides, [None, Some(0)]);
+    use super::*;
+    use crate::refine::delaunay::linked::Linked;
+
+    fn features_of(cells: &[([u32; 3], u32)]) -> Features {
+        let mut linked = LinkedTriangles::new(vec![Point2::new(0.0, 0.0); 5]);
+        let cells = cells.iter().map(|&(points, region)| Linked::new(points, Some(region)));
+        let mut pairs = linked.add(cells).unwrap();
+        pairs.retain(|pair| is_kept(pair, &linked));
+        features(&pairs, &linked, &[0, 1, 2, 3, 4])
     }
 
     #[test]
-    fn what_does_not_fit_together_is_refused() {
-        let with = |cells: Vec<[u32; 3]>| {
-            let mesh = TriangleMesh::new(vec![Vector::zeros(); 9], cells).unwrap();
-            edges_and_features(&mesh, &[], |_| false).unwrap_err()
-        };
-        let three = with(vec![[0, 1, 2], [2, 1, 3], [1, 2, 4]]);
-        assert_eq!(three, DelaunayError::Branching { ends: [1, 2] });
-        let over = with(vec![[0, 1, 2], [1, 2, 4]]);
-        assert_eq!(over, DelaunayError::CrossingEdges { ends: [1, 2] });
-        let cells = vec![[0, 1, 2], [2, 3, 4]];
-        let mesh = TriangleMesh::new(vec![Vector::zeros(); 5], cells).unwrap();
-        let (_, features) = edges_and_features(&mesh, &[], |_| false).unwrap();
-        let touching = refuse_touching(&features).unwrap_err();
-        assert_eq!(touching, DelaunayError::TouchingBoundaries { point: 2 });
+    fn boundary_and_interface_by_hand() {
+        let features = features_of(&[([0, 1, 2], 7), ([2, 1, 3], 8)]);
+        assert_eq!(features.len(), 5);
+        assert_eq!(features[&[1, 2]].sides, [Some(7), Some(8)]);
+        assert_eq!(features[&[0, 2]].sides, [None, Some(7)]);
+        let halves = features[&[0, 2]].halves(1)[1].halves(0);
+        assert_eq!(halves[0].span, [1.0, 0.75]);
+        assert_eq!(halves[1].sides, [None, Some(7)]);
+        assert!(!features_of(&[([0, 1, 2], 0), ([2, 1, 3], 0)]).contains_key(&[1, 2]));
+    }
+
+    #[test]
+    fn boundaries_that_touch_are_refused() {
+        let touching = features_of(&[([0, 1, 2], 0), ([2, 3, 4], 0)]);
+        let error = refuse_touching(&touching).unwrap_err();
+        assert_eq!(error, DelaunayError::TouchingBoundaries { point: 2 });
     }
 }

@@ -16,7 +16,9 @@ mod choice;
 mod curve;
 mod error;
 mod features;
+mod linked;
 mod origins;
+mod outside;
 mod plane;
 mod quality;
 mod ties;
@@ -25,14 +27,15 @@ mod triangulation;
 pub use error::DelaunayError;
 
 use rayon::prelude::*;
+use spade::Point2;
 
 use self::choice::{Addition, by_thesis, without_conflicts};
 use self::curve::Curve;
-use self::features::{Feature, edges_and_features, refuse_touching};
+use self::features::{Feature, refuse_touching};
+use self::linked::orientation;
 use self::origins::Origins;
 use self::plane::Plane;
 use self::quality::improvements;
-use self::ties::Ties;
 use self::triangulation::{Face, Triangulation, centroid, refuse_duplicates};
 use super::{Marks, NewPoint, Refinement};
 use crate::interruption::checkpoint;
@@ -97,15 +100,20 @@ fn unchanged(mesh: &TriangleMesh) -> Refinement<3> {
     }
 }
 
-/// A refinement in progress. Points are those of the mesh that a cell uses, then the new ones.
+/// After so many rounds of points for the sake of symmetry no more are added. A round or two are
+/// enough for most meshes.
+const TIE_ROUNDS: usize = 8;
+
+/// A refinement in progress. Points are those of the mesh that a cell uses, then some around the
+/// domain, then the new ones.
 struct Job<'a> {
     mesh: &'a TriangleMesh<'a>,
     plane: Plane,
     triangulation: Triangulation,
     /// The mesh's number of each point that a cell uses.
     used: Vec<u32>,
-    /// The triangulation's number of each of the mesh's points.
-    numbers: Vec<u32>,
+    /// The triangulation's number of the first new point.
+    first_new: u32,
     /// The feature that each new point halved; nothing for points inside.
     halved: Vec<Option<Feature>>,
     /// A number for each cell of the mesh, or none.
@@ -122,25 +130,19 @@ impl<'a> Job<'a> {
         let points: Vec<_> =
             used.iter().map(|&point| plane.project(&mesh.points()[point as usize])).collect();
         refuse_duplicates(&points).map_err(|error| error.renumbered(&used))?;
-        let (edges, features) = edges_and_features(mesh, options.regions, |cell| {
-            let corners = mesh.corners(cell).map(|corner| plane.project(&corner));
-            triangulation::cross(corners[0], corners[1], corners[2]) < 0.0
-        })?;
-        // used points are numbered in their order: the lower end stays the lower one
-        let number = |point: u32| numbers[point as usize];
-        let edges = edges.into_iter().map(|edge| edge.map(|p| number(p as u32) as usize));
-        let features = features.into_iter().map(|(ends, kept)| (ends.map(number), kept)).collect();
+        let cells = counter_clockwise(mesh, &numbers, &points)?;
+        let regions = (0..cells.len()).map(|cell| options.regions.get(cell).copied().unwrap_or(0));
+        let cells = cells.into_iter().zip(regions);
         let curves = options
             .curves
             .iter()
             .map(|curve| Curve::new(curve.iter().map(|point| plane.project(point)).collect()));
-        let edges: Vec<_> = edges.collect();
-        let triangulation = Triangulation::new(points, &edges, features, curves.collect())
+        let triangulation = Triangulation::new(points, cells, &used, curves.collect())
             .map_err(|error| error.renumbered(&used))?;
         // last: cells that do not fit together mostly touch, too
         refuse_touching(&triangulation.features)?;
-        let regions = options.regions;
-        Ok(Self { mesh, plane, triangulation, used, numbers, halved: Vec::new(), regions })
+        let (regions, first_new) = (options.regions, triangulation.count() as u32);
+        Ok(Self { mesh, plane, triangulation, used, first_new, halved: Vec::new(), regions })
     }
 
     /// Adds the points that marks and angles ask for, `room` of them at most.
@@ -153,32 +155,50 @@ impl<'a> Job<'a> {
             open = later;
             let additions = self.for_marks(now);
             room -= self.add(&additions, room);
-            let mut rounds = quality::ROUNDS;
-            while least_angle > 0.0 && room > 0 && rounds > 0 {
-                let first_new = self.used.len() as u32;
-                let additions = improvements(&self.triangulation, first_new, least_angle);
-                let added = self.add(&additions, room);
-                if added == 0 {
-                    break;
-                }
-                room -= added;
-                rounds -= 1;
-            }
+            room -= self.look_after_angles(room, least_angle);
         }
+        for _ in 0..TIE_ROUNDS {
+            let places = self.triangulation.settle_ties(self.first_new).into_iter();
+            let additions =
+                places.map(|(place, face)| Addition::Inside { place, face, radius: 0.0 });
+            let added = self.add(&additions.collect::<Vec<_>>(), room);
+            if added == 0 {
+                return;
+            }
+            room -= added;
+            room -= self.look_after_angles(room, least_angle);
+        }
+        self.triangulation.settle_ties(self.first_new);
+    }
+
+    /// Adds what angles ask for, `room` points at most; returns how many.
+    fn look_after_angles(&mut self, room: usize, least_angle: f64) -> usize {
+        let mut all = 0;
+        for _ in 0..quality::ROUNDS {
+            if least_angle <= 0.0 || all == room {
+                break;
+            }
+            let additions = improvements(&self.triangulation, self.first_new, least_angle);
+            let added = self.add(&additions, room - all);
+            if added == 0 {
+                break;
+            }
+            all += added;
+        }
+        all
     }
 
     /// What is added for marked cells: nothing for one that an earlier portion has refined.
     fn for_marks(&self, marks: &[u32]) -> Vec<Addition> {
-        let first_new = self.used.len() as u32;
-        let additions = marks.iter().filter_map(|&cell| {
+        let additions = marks.par_iter().flat_map_iter(|&cell| {
             checkpoint();
             let corners = self.mesh.corners(cell as usize).map(|c| self.plane.project(&c));
-            let near = self.numbers[self.mesh.triangles()[cell as usize][0] as usize];
-            let face = self.triangulation.locate(centroid(&corners), near)?;
-            let is_old = face.points.iter().all(|&point| point < first_new);
-            is_old.then(|| by_thesis(&self.triangulation, &face))
+            let face = self.triangulation.locate(centroid(&corners), cell);
+            let is_old = |face: &Face| face.points.iter().all(|&point| point < self.first_new);
+            let face = face.filter(is_old);
+            face.map_or_else(Vec::new, |face| by_thesis(&self.triangulation, &face))
         });
-        without_conflicts(&self.triangulation, additions.flatten().collect())
+        without_conflicts(additions.collect())
     }
 
     /// Adds points, `room` of them at most; returns how many.
@@ -194,8 +214,8 @@ impl<'a> Job<'a> {
                     let feature = self.triangulation.features.get(&edge).copied();
                     (self.triangulation.halve(edge, halvings), feature)
                 }
-                Addition::Inside { place, near, .. } => {
-                    (self.triangulation.insert(place, near), None)
+                Addition::Inside { place, face, .. } => {
+                    (self.triangulation.insert(place, face), None)
                 }
             };
             if point.is_some() {
@@ -208,13 +228,9 @@ impl<'a> Job<'a> {
 
     /// The refined mesh.
     fn finish(self) -> Refinement<3> {
-        let faces = self.triangulation.faces();
         let position = |point: u32| self.triangulation.position(point);
-        let first_new = self.used.len() as u32;
-        let is_kept = |edge| self.triangulation.features.contains_key(&edge);
-        let (faces, regions): (Vec<Face>, Vec<u32>) = faces.into_iter().unzip();
-        let mut triangles: Vec<[u32; 3]> = faces.iter().map(|face| face.points).collect();
-        Ties { position: &position, first_new, is_kept: &is_kept }.settle(&mut triangles);
+        let first_new = self.first_new;
+        let faces: Vec<(Face, u32)> = self.triangulation.faces().flatten().collect();
         let old = self.mesh.points().len() as u32;
         let number = |point: u32| match self.used.get(point as usize) {
             Some(&number) => number,
@@ -229,11 +245,10 @@ impl<'a> Job<'a> {
                 None => there,
             }
         }));
-        triangles.par_iter_mut().for_each(|cell| *cell = cell.map(number));
         let origins = Origins::new(self.mesh, self.regions);
-        // both triangles of a diagonal that was turned are of one region
-        let cells = triangles.par_iter().zip(&regions);
-        let cells = cells.map(|(&cell, &region)| origins.of_cell(cell, region, &points));
+        let cells = faces.par_iter().map(|(face, region)| {
+            origins.of_cell(face.points.map(number), *region, &points, face.number)
+        });
         let (cells, parents): (Vec<[u32; 3]>, Vec<u32>) = cells.unzip();
         let around = parents_around(&cells, &parents, old, self.halved.len());
         let new_points = points[old as usize..].par_iter().zip(&self.halved).zip(&around);
@@ -269,6 +284,28 @@ fn parents_around(
         }
     }
     around
+}
+
+/// The cells in numbers of points that are used, each counter-clockwise.
+///
+/// # Errors
+/// If one has no area.
+fn counter_clockwise(
+    mesh: &TriangleMesh,
+    numbers: &[u32],
+    points: &[Point2<f64>],
+) -> Result<Vec<[u32; 3]>, DelaunayError> {
+    let cells = mesh.triangles().par_iter().enumerate().map(|(cell, corners)| {
+        let [a, b, c] = corners.map(|point| numbers[point as usize]);
+        let [p, q, r] = [a, b, c].map(|point| points[point as usize]);
+        match orientation(p, q, r) {
+            area if area > 0.0 => Ok([a, b, c]),
+            area if area < 0.0 => Ok([a, c, b]),
+            _ => Err(DelaunayError::NoArea { cell: cell as u32 }),
+        }
+    });
+    // the first error in the order of the cells
+    cells.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// The points that cells use, in their order; and for each point its place among them.

@@ -45,8 +45,20 @@ impl<'a> Origins<'a> {
     /// A cell turned as the one it comes from, which is told too: in which its middle lies, or
     /// where a curve moved the border of its region, the nearest of this region. A cell of the
     /// input is as it was.
-    pub fn of_cell(&self, cell: [u32; 3], region: u32, points: &[Vector]) -> ([u32; 3], u32) {
+    /// `likely`: the number of the input's cell that it probably is.
+    pub fn of_cell(
+        &self,
+        cell: [u32; 3],
+        region: u32,
+        points: &[Vector],
+        likely: u32,
+    ) -> ([u32; 3], u32) {
         let near = || cell.iter().flat_map(|&corner| self.cells_around(corner));
+        let all = self.mesh.triangles();
+        let is_likely = |old: &[u32; 3]| old.iter().all(|point| cell.contains(point));
+        if let Some(&same) = all.get(likely as usize).filter(|old| is_likely(old)) {
+            return (same, likely);
+        }
         let is_same =
             |old: &&u32| self.mesh.triangles()[**old as usize].iter().all(|p| cell.contains(p));
         if let Some(&same) = near().find(is_same) {
@@ -128,12 +140,12 @@ mod tests {
         let cells = vec![[0, 1, 2], [2, 3, 0]];
         let mesh = TriangleMesh::new(points[..4].to_vec(), cells).unwrap();
         let origins = Origins::new(&mesh, &[]);
-        assert_eq!(origins.of_cell([0, 2, 3], 0, &points), ([2, 3, 0], 1));
-        assert_eq!(origins.of_cell([0, 1, 4], 0, &points), ([0, 1, 4], 0));
-        assert_eq!(origins.of_cell([3, 5, 2], 0, &points), ([3, 5, 2], 1));
+        assert_eq!(origins.of_cell([0, 2, 3], 0, &points, 7), ([2, 3, 0], 1));
+        assert_eq!(origins.of_cell([0, 1, 4], 0, &points, 7), ([0, 1, 4], 0));
+        assert_eq!(origins.of_cell([3, 5, 2], 0, &points, 7), ([3, 5, 2], 1));
         let regions = [7, 8];
         let origins = Origins::new(&mesh, &regions);
-        assert_eq!(origins.of_cell([0, 1, 4], 8, &points).1, 1);
+        assert_eq!(origins.of_cell([0, 1, 4], 8, &points, 0).1, 1);
         for likely in [&[0, 1][..], &[]] {
             let NewPoint::Inside { cell, at } = origins.of_point(&points[5], likely) else {
                 panic!()

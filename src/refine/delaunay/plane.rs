@@ -1,5 +1,6 @@
 //! A flat mesh in coordinates of its plane.
 
+use rayon::prelude::*;
 use spade::{Point2, mitigate_underflow};
 
 use super::DelaunayError;
@@ -24,17 +25,18 @@ impl Plane {
     pub fn new(mesh: &TriangleMesh) -> Result<Self, DelaunayError> {
         let points = mesh.points();
         let used = || mesh.triangles().iter().flatten().copied();
+        let cells = || (0..mesh.triangles().len()).into_par_iter();
         let flat = |&cell: &usize| mesh.frame(cell).is_degenerate();
-        if let Some(cell) = (0..mesh.triangles().len()).find(flat) {
+        if let Some(cell) = cells().find_first(flat) {
             return Err(DelaunayError::NoArea { cell: cell as u32 });
         }
         let Some(&[first, ..]) = mesh.triangles().first() else {
             return Ok(Self { origin: Vector::zeros(), axes: [Vector::x(), Vector::y()] });
         };
         // the largest triangle tells the plane best
-        let largest = (0..mesh.triangles().len())
-            .max_by(|&a, &b| mesh.measure(a).total_cmp(&mesh.measure(b)))
-            .unwrap_or(0);
+        let sizes = cells().map(|cell| (mesh.measure(cell), cell));
+        let largest = sizes.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let largest = largest.map_or(0, |(_, cell)| cell);
         let mut normal = *mesh.frame(largest).normal();
         if normal[normal.iamax()] < 0.0 {
             normal = -normal;

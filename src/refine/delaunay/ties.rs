@@ -1,128 +1,265 @@
-//! Points on a circle: which of two diagonals.
+//! Points on a circle: which diagonals.
 //!
-//! Where four points lie on a circle, both diagonals are Delaunay, and rounding and the order of
-//! insertion choose. Here geometry does, in a way that every symmetry of the mesh respects: the
-//! shorter diagonal, or of equal ones that whose line passes nearer to the middle of the mesh.
-//! Only edges of triangles at new points are looked at.
+//! Where four points or more lie on a circle, as far as rounding can tell, they make a polygon of
+//! which every triangulation is Delaunay, and rounding and the order of insertion would choose.
+//! Here geometry does, in a way that every symmetry of the mesh respects: the shorter diagonals
+//! first, of equal ones those whose lines pass nearer to the middle of the mesh, through which all
+//! lines of symmetry go.
+//!
+//! Diagonals that are equal by this are each other's mirror images, and if they cross, as in a
+//! rectangle of which two sides are on both sides of a line of symmetry, there is no symmetric
+//! choice: both are taken, and a point is added where they cross. Its triangles have no smaller
+//! angles than those of the rectangle.
+//!
+//! Only polygons that have a new point are looked at.
 
-use rayon::slice::ParallelSliceMut;
 use spade::Point2;
 
-use super::features::sorted;
+use super::curve::mix;
+use super::linked::{LinkedTriangles, is_on_circle, orientation};
 use super::triangulation::cross;
-
-/// The points that are triangulated.
-pub struct Ties<'a> {
-    pub position: &'a dyn Fn(u32) -> Point2<f64>,
-    /// The first of the new points.
-    pub first_new: u32,
-    /// Whether an edge is kept as it is.
-    pub is_kept: &'a dyn Fn([u32; 2]) -> bool,
-}
 
 /// What is closer than this, relative to its size, is the same.
 const SAME: f64 = 1e-9;
 
-/// A triangle at each side of an edge, and its corner opposite.
-type Sides = [Option<(usize, u32)>; 2];
+/// Gives all polygons of points on a circle that have a point of number `first_new` or above their
+/// diagonals. Returns where a point has to be added, and a triangle there.
+pub fn settle(cells: &mut LinkedTriangles, first_new: u32) -> Vec<(Point2<f64>, u32)> {
+    let mut places = Vec::new();
+    let Some(centre) = centre(cells) else { return places };
+    let mut is_seen = vec![false; cells.triangles().len()];
+    for triangle in 0..cells.triangles().len() as u32 {
+        let is_new = cells.triangle(triangle).points.iter().any(|&point| point >= first_new);
+        let is_inside = cells.triangle(triangle).side.is_some();
+        if !is_new || !is_inside || is_seen[triangle as usize] {
+            continue;
+        }
+        let parts = on_one_circle(cells, triangle, &mut is_seen);
+        if parts.len() < 2 {
+            continue;
+        }
+        let Some(polygon) = Polygon::new(cells, &parts) else { continue };
+        let mut faces = polygon.faces(&polygon.diagonals(centre));
+        places.extend(faces.iter().filter(|face| face.len() > 3).map(|face| {
+            // any triangle of the polygon is near
+            (polygon.place_in(face), parts[0])
+        }));
+        // for the time being, or for good if no more points are allowed
+        let fan = |face: &Vec<usize>| -> Vec<[usize; 3]> {
+            face.windows(2).skip(1).map(|pair| [face[0], pair[0], pair[1]]).collect()
+        };
+        let triangles = faces.drain(..).flat_map(|face| fan(&face));
+        let triangles: Vec<[u32; 3]> =
+            triangles.map(|corners| corners.map(|corner| polygon.points[corner])).collect();
+        cells.replace(&parts, &triangles);
+    }
+    places
+}
 
-impl Ties<'_> {
-    /// Turns diagonals of counter-clockwise triangles.
-    pub fn settle(&self, triangles: &mut [[u32; 3]]) {
-        let Some(centre) = self.centre(triangles) else { return };
-        // each turn lowers the sum of all lengths, or else that of the distances
-        loop {
-            let edges = self.edges(triangles);
-            let mut is_turned = vec![false; triangles.len()];
-            let mut count = 0;
-            for (edge, sides) in edges {
-                let [Some((one, c)), Some((other, d))] = sides else { continue };
-                if is_turned[one] || is_turned[other] || !self.should_turn(edge, [c, d], centre) {
-                    continue;
-                }
-                let [a, b] = edge;
-                triangles[one] = [c, a, d];
-                triangles[other] = [d, b, c];
-                for triangle in [one, other] {
-                    let [p, q, r] = triangles[triangle].map(|point| (self.position)(point));
-                    if cross(p, q, r) < 0.0 {
-                        triangles[triangle].swap(1, 2);
-                    }
-                    is_turned[triangle] = true;
-                }
-                count += 1;
+/// The middle of the mesh: the mean of its points would depend on where it is fine.
+fn centre(cells: &LinkedTriangles) -> Option<Point2<f64>> {
+    let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
+    let inside = cells.triangles().iter().filter(|triangle| triangle.side.is_some());
+    for triangle in inside {
+        let [a, b, c] = triangle.points.map(|point| cells.position(point));
+        let part = cross(a, b, c);
+        area += part;
+        x += part * (a.x + b.x + c.x) / 3.0;
+        y += part * (a.y + b.y + c.y) / 3.0;
+    }
+    (area > 0.0).then(|| Point2::new(x / area, y / area))
+}
+
+/// The triangles around one, and itself, that have their corners on the same circle.
+fn on_one_circle(cells: &LinkedTriangles, first: u32, is_seen: &mut [bool]) -> Vec<u32> {
+    let mut parts = vec![first];
+    is_seen[first as usize] = true;
+    let mut next = 0;
+    while let Some(&part) = parts.get(next) {
+        next += 1;
+        for corner in 0..3 {
+            let triangle = cells.triangle(part);
+            let Some((beyond, opposite)) = cells.twin((part, corner)) else { continue };
+            if triangle.borders[corner].is_kept || is_seen[beyond as usize] {
+                continue;
             }
-            if count == 0 {
-                return;
+            let [a, b] = triangle.edge(corner);
+            let ends = [a, b, triangle.points[corner], cells.triangle(beyond).points[opposite]];
+            let [a, b, c, d] = ends.map(|point| cells.position(point));
+            if is_on_circle(a, b, c, d) {
+                is_seen[beyond as usize] = true;
+                parts.push(beyond);
             }
         }
     }
+    parts
+}
 
-    /// The middle of the mesh: the mean of its points would depend on where it is fine.
-    fn centre(&self, triangles: &[[u32; 3]]) -> Option<Point2<f64>> {
-        let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
-        for triangle in triangles {
-            let [a, b, c] = triangle.map(|point| (self.position)(point));
-            let part = cross(a, b, c);
-            area += part;
-            x += part * (a.x + b.x + c.x) / 3.0;
-            y += part * (a.y + b.y + c.y) / 3.0;
-        }
-        (area > 0.0).then(|| Point2::new(x / area, y / area))
-    }
+/// Points on a circle, counter-clockwise, that of the lowest number first.
+struct Polygon {
+    points: Vec<u32>,
+    corners: Vec<Point2<f64>>,
+}
 
-    /// The edges of triangles that a new point is a corner of, with both their triangles, sorted.
-    fn edges(&self, triangles: &[[u32; 3]]) -> Vec<([u32; 2], Sides)> {
-        let is_near = |triangle: &[u32; 3]| triangle.iter().any(|p| *p >= self.first_new);
-        let count = triangles.iter().flatten().max().map_or(0, |&most| most as usize + 1);
-        let mut is_end = vec![false; count];
-        for triangle in triangles.iter().filter(|triangle| is_near(triangle)) {
-            triangle.iter().for_each(|&point| is_end[point as usize] = true);
+/// A diagonal by the places of its ends, the lower first.
+#[derive(Clone, Copy, Debug)]
+struct Diagonal {
+    ends: [usize; 2],
+    length: f64,
+    /// From the middle of the mesh.
+    distance: f64,
+}
+
+/// Polygons of more points keep the diagonals that they have: their number is squared.
+const MOST_POINTS: usize = 64;
+
+impl Polygon {
+    /// What triangles make together; nothing if that is no convex polygon, for rounding.
+    fn new(cells: &LinkedTriangles, parts: &[u32]) -> Option<Self> {
+        let mut points: Vec<u32> =
+            parts.iter().flat_map(|&part| cells.triangle(part).points).collect();
+        points.sort_unstable();
+        points.dedup();
+        let count = points.len();
+        if count != parts.len() + 2 || count > MOST_POINTS {
+            return None;
         }
-        // the edge, its side, the triangle there and its corner opposite
-        let mut named: Vec<([u32; 2], usize, usize, u32)> = Vec::new();
-        for (number, &[a, b, c]) in triangles.iter().enumerate() {
-            for ([p, q], opposite) in [([a, b], c), ([b, c], a), ([c, a], b)] {
-                if is_end[p as usize] && is_end[q as usize] {
-                    named.push((sorted([p, q]), usize::from(p > q), number, opposite));
-                }
-            }
-        }
-        named.par_sort_unstable();
-        let groups = named.chunk_by(|one, next| one.0 == next.0);
-        let near = groups.filter(|group| group.iter().any(|side| is_near(&triangles[side.2])));
-        let near = near.filter(|group| !(self.is_kept)(group[0].0));
-        let both = near.map(|group| {
-            let mut sides = Sides::default();
-            group.iter().for_each(|&(_, side, number, c)| sides[side] = Some((number, c)));
-            (group[0].0, sides)
+        let middle = mean(points.iter().map(|&point| cells.position(point)));
+        let lowest = points[0];
+        let angle = |&point: &u32| {
+            let place = cells.position(point);
+            (place.y - middle.y).atan2(place.x - middle.x)
+        };
+        points.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
+        let first = points.iter().position(|&point| point == lowest)?;
+        points.rotate_left(first);
+        let corners: Vec<_> = points.iter().map(|&point| cells.position(point)).collect();
+        let is_convex = (0..count).all(|k| {
+            let [a, b, c] = [0, 1, 2].map(|step| corners[(k + step) % count]);
+            orientation(a, b, c) > 0.0
         });
-        both.collect()
+        is_convex.then_some(Self { points, corners })
     }
 
-    /// Whether the other diagonal is as good by Delaunay's rule, and better by ours.
-    fn should_turn(&self, edge: [u32; 2], opposite: [u32; 2], centre: Point2<f64>) -> bool {
-        let [[a, b], [c, d]] = [edge, opposite].map(|ends| ends.map(|end| (self.position)(end)));
-        if !is_on_circle(a, b, c, d) {
-            return false;
+    /// Diagonals that do not cross, as many as can be chosen without preferring one of two that
+    /// are equal.
+    fn diagonals(&self, centre: Point2<f64>) -> Vec<Diagonal> {
+        let mut all = self.all(centre);
+        let size = all.iter().map(|diagonal| diagonal.length).fold(0.0, f64::max);
+        let mut chosen: Vec<Diagonal> = Vec::new();
+        all.sort_by(|one, other| one.length.total_cmp(&other.length));
+        for equal in all.chunk_by_mut(|one, next| next.length - one.length <= SAME * size) {
+            equal.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+            for equal in equal.chunk_by(|one, next| next.distance - one.distance <= SAME * size) {
+                let cross = |one: &Diagonal, others: &[Diagonal]| {
+                    others.iter().any(|other| one.crosses(other))
+                };
+                let possible: Vec<Diagonal> =
+                    equal.iter().filter(|one| !cross(one, &chosen)).copied().collect();
+                chosen.extend(possible.iter().filter(|one| !cross(one, &possible)));
+            }
         }
-        let [own, other] = [[a, b], [c, d]].map(|[p, q]| p.distance_2(q).sqrt());
-        let size = own.max(other);
-        if (own - other).abs() > SAME * size {
-            return other < own;
+        chosen
+    }
+
+    fn all(&self, centre: Point2<f64>) -> Vec<Diagonal> {
+        let count = self.corners.len();
+        let pairs = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));
+        let inner = pairs.filter(|&[i, j]| j - i < count - 1);
+        let diagonal = |ends: [usize; 2]| {
+            let [p, q] = ends.map(|end| self.corners[end]);
+            let length = p.distance_2(q).sqrt();
+            Diagonal { ends, length, distance: cross(p, q, centre).abs() / length }
+        };
+        inner.map(diagonal).collect()
+    }
+
+    /// The parts into which diagonals divide the polygon.
+    fn faces(&self, diagonals: &[Diagonal]) -> Vec<Vec<usize>> {
+        let mut faces = vec![(0..self.corners.len()).collect::<Vec<_>>()];
+        for &Diagonal { ends: [i, j], .. } in diagonals {
+            let has_both = |face: &Vec<usize>| face.contains(&i) && face.contains(&j);
+            let Some(place) = faces.iter().position(has_both) else { continue };
+            let face = faces.swap_remove(place);
+            let between = |&k: &usize| i <= k && k <= j;
+            faces.push(face.iter().copied().filter(between).collect());
+            faces.push(face.into_iter().filter(|&k| k <= i || j <= k).collect());
         }
-        let distance = |p: Point2<f64>, q: Point2<f64>| cross(p, q, centre).abs() / size;
-        let [own, other] = [distance(a, b), distance(c, d)];
-        own - other > SAME * size
+        faces
+    }
+
+    /// Where a point joins the corners of a face symmetrically: of four, where the diagonals
+    /// cross, so that no angle becomes smaller.
+    fn place_in(&self, face: &[usize]) -> Point2<f64> {
+        let corner = |k: usize| self.corners[face[k]];
+        if face.len() != 4 {
+            return mean((0..face.len()).map(corner));
+        }
+        let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+        let (one, other) = (cross(a, c, b).abs(), cross(a, c, d).abs());
+        mix(b, d, one / (one + other))
     }
 }
 
-/// Whether four points lie on a circle, as far as rounding can tell: the angles at `c` and `d`
-/// over the edge from `a` to `b` make 180 degrees.
-fn is_on_circle(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>, d: Point2<f64>) -> bool {
-    let angle = |at: Point2<f64>| {
-        let dot = (a.x - at.x) * (b.x - at.x) + (a.y - at.y) * (b.y - at.y);
-        cross(at, a, b).abs().atan2(dot)
-    };
-    (angle(c) + angle(d) - std::f64::consts::PI).abs() < SAME
+impl Diagonal {
+    fn crosses(&self, other: &Self) -> bool {
+        let ([i, j], [p, q]) = (self.ends, other.ends);
+        (i < p && p < j && j < q) || (p < i && i < q && q < j)
+    }
+}
+
+fn mean(points: impl ExactSizeIterator<Item = Point2<f64>>) -> Point2<f64> {
+    let count = points.len() as f64;
+    let (x, y) = points.fold((0.0, 0.0), |(x, y), point| (x + point.x, y + point.y));
+    Point2::new(x / count, y / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polygon(corners: &[[f64; 2]]) -> Polygon {
+        let corners: Vec<_> = corners.iter().map(|&[x, y]| Point2::new(x, y)).collect();
+        Polygon { points: (0..corners.len() as u32).collect(), corners }
+    }
+
+    fn ends(polygon: &Polygon, centre: [f64; 2]) -> Vec<[usize; 2]> {
+        let chosen = polygon.diagonals(Point2::new(centre[0], centre[1]));
+        let mut ends: Vec<_> = chosen.into_iter().map(|diagonal| diagonal.ends).collect();
+        ends.sort_unstable();
+        ends
+    }
+
+    #[test]
+    fn diagonals_by_hand() {
+        let rectangle = polygon(&[[-1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [-1.0, 1.0]]);
+        assert_eq!(ends(&rectangle, [5.0, 2.0]), [[0, 2]]);
+        assert_eq!(ends(&rectangle, [-5.0, 2.0]), [[1, 3]]);
+        // a line of symmetry through two sides: neither
+        assert_eq!(ends(&rectangle, [0.0, 5.0]).len(), 0);
+        let [face] = &rectangle.faces(&[])[..] else { panic!() };
+        assert_eq!(rectangle.place_in(face), Point2::new(0.0, 0.5));
+        // the shorter one of a kite
+        let kite = polygon(&[[-1.0, 0.0], [0.6, -0.8], [1.0, 0.0], [0.6, 0.8]]);
+        assert_eq!(ends(&kite, [0.0, 0.0]), [[1, 3]]);
+    }
+
+    #[test]
+    fn hexagons_by_hand() {
+        let h = 3.0_f64.sqrt() / 2.0;
+        let corners = [[1.0, 0.0], [0.5, h], [-0.5, h], [-1.0, 0.0], [-0.5, -h], [0.5, -h]];
+        let hexagon = polygon(&corners);
+        // all lines of symmetry pass through it: nothing is chosen
+        assert_eq!(ends(&hexagon, [0.0, 0.0]).len(), 0);
+        // one does, through two corners
+        assert_eq!(ends(&hexagon, [9.0, 0.0]), [[0, 2], [0, 4], [2, 4]]);
+        // one does, through two sides: what is left is the rectangle amid
+        assert_eq!(ends(&hexagon, [0.0, 9.0]), [[1, 5], [2, 4]]);
+        let faces = hexagon.faces(&hexagon.diagonals(Point2::new(0.0, 9.0)));
+        let mut counts: Vec<usize> = faces.iter().map(Vec::len).collect();
+        counts.sort_unstable();
+        assert_eq!(counts, [3, 3, 4]);
+        // none does
+        assert_eq!(ends(&hexagon, [9.0, 1.0]).len(), 3);
+    }
 }

@@ -1,33 +1,27 @@
-//! The constrained Delaunay triangulation of a domain.
+//! The constrained Delaunay triangulation of a domain, and of what is around it.
 //!
-//! spade's triangulation covers the convex hull. Which of its faces belong to the domain, and
-//! to which region, follows from the features: each knows what lies on both its sides.
+//! It begins with the cells as they are, so a mesh that is Delaunay costs no more than a look at
+//! its edges. Each triangle knows its region, or that it is outside.
 
-use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
-use spade::{
-    ConstrainedDelaunayTriangulation, Point2, PositionInTriangulation, Triangulation as _,
-};
+use rayon::prelude::*;
+use spade::{Point2, mitigate_underflow};
 
 use super::DelaunayError;
 use super::curve::{Curve, mix};
-use super::features::{Features, Side, sorted};
+use super::features::{Features, features, is_kept, sorted};
+use super::linked::{Linked, LinkedTriangles, orientation};
+use super::outside::add_outside;
+use super::ties;
 
-type Spade = ConstrainedDelaunayTriangulation<Point2<f64>>;
-type FaceHandle<'a> =
-    spade::handles::FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
-type EdgeHandle<'a> =
-    spade::handles::DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
-
-/// The constrained Delaunay triangulation of a domain. Points have the numbers of spade's
-/// vertices.
+/// The constrained Delaunay triangulation of a domain.
 pub struct Triangulation {
-    spade: Spade,
+    cells: LinkedTriangles,
     pub features: Features,
     curves: Vec<Curve>,
 }
 
-/// The number of a face, until a point is added.
-pub type FaceNumber = FixedFaceHandle<InnerTag>;
+/// The number of a face. When points are added another face may get it, which is near.
+pub type FaceNumber = u32;
 
 /// A face of the triangulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,48 +46,42 @@ pub enum Way {
 /// What rounding cannot tell from zero.
 const SAME: f64 = 1e-9;
 
+/// A place is looked for in so many faces around the one that held it before points were added.
+const FACES_AROUND: usize = 500;
+
 impl Triangulation {
-    /// The triangulation of `points`, which begins with the given `edges` and is made
-    /// Delaunay: so where four points lie on a circle, the edge of the input stays.
+    /// The triangulation that begins with counter-clockwise `cells`, each with its region, and is
+    /// made Delaunay: so where four points lie on a circle, the edge of the input stays. The
+    /// faces have the numbers of the cells. `used`: the mesh's number of each point.
     ///
     /// # Errors
-    /// If edges cross, or no feature is on a curve.
+    /// If cells lie over one another, or no feature is on a curve.
     pub fn new(
         points: Vec<Point2<f64>>,
-        edges: &[[usize; 2]],
-        features: Features,
+        cells: impl Iterator<Item = ([u32; 3], u32)>,
+        used: &[u32],
         curves: Vec<Curve>,
     ) -> Result<Self, DelaunayError> {
-        let mut crossing = Vec::new();
-        let loaded = Spade::try_bulk_load_cdt(points, edges.to_vec(), |edge| crossing.push(edge));
-        let Ok(mut spade) = loaded else { return Err(DelaunayError::TooLarge) };
-        // an edge through a point became several
-        if spade.num_constraints() != edges.len() {
-            let is_missing = |[from, to]: &&[usize; 2]| {
-                !spade.exists_constraint(handle(*from as u32), handle(*to as u32))
-            };
-            crossing.extend(edges.iter().find(is_missing));
-        }
-        if let Some(edge) = crossing.iter().min() {
-            let ends = sorted(edge.map(|point| point as u32));
-            return Err(DelaunayError::CrossingEdges { ends });
-        }
-        let free: Vec<_> = spade
-            .undirected_edges()
-            .filter(|edge| {
-                let ends = edge.vertices().map(|vertex| vertex.index() as u32);
-                edge.is_constraint_edge() && !features.contains_key(&sorted(ends))
+        let mut linked = LinkedTriangles::new(points);
+        let added = linked.add(cells.map(|(points, region)| Linked::new(points, Some(region))));
+        let mut kept = added.map_err(|error| match error.count {
+            2 => DelaunayError::CrossingEdges { ends: error.ends },
+            _ => DelaunayError::Branching { ends: error.ends },
+        })?;
+        kept.retain(|pair| is_kept(pair, &linked));
+        let features = features(&kept, &linked, used);
+        add_outside(&mut linked, &features)?;
+        let sides = kept.iter().filter_map(|pair| pair.sides[0].or(pair.sides[1]));
+        sides.for_each(|side| linked.keep(side, true));
+        let all = (0..linked.triangles().len() as u32).into_par_iter();
+        let edges = all.flat_map_iter(|face| (0..3).map(move |corner| (face, corner)));
+        let bad: Vec<_> = edges
+            .filter(|&(face, corner)| {
+                linked.triangle(face).borders[corner].beyond > face && linked.is_bad((face, corner))
             })
-            .map(|edge| edge.vertices().map(|vertex| vertex.fix()))
             .collect();
-        for [from, to] in free {
-            // edges removed before may have turned others, never one that is still kept
-            if let Some(edge) = spade.get_edge_from_neighbors(from, to) {
-                let edge = edge.as_undirected().fix();
-                spade.remove_constraint_edge(edge);
-            }
-        }
-        let all = Self { spade, features, curves };
+        linked.make_delaunay(bad);
+        let all = Self { cells: linked, features, curves };
         let is_on_curve = |edge: &[u32; 2]| all.on_curve(*edge).is_some();
         if !all.curves.is_empty() && !all.features.keys().any(is_on_curve) {
             return Err(DelaunayError::NoEdgeOnCurves);
@@ -101,80 +89,75 @@ impl Triangulation {
         Ok(all)
     }
 
-    /// How many points there are.
+    /// How many points there are, with those around the domain.
     pub fn count(&self) -> usize {
-        self.spade.num_vertices()
+        self.cells.positions.len()
     }
 
     /// Where a point is.
     pub fn position(&self, point: u32) -> Point2<f64> {
-        self.spade.vertex(handle(point)).position()
+        self.cells.position(point)
     }
 
     /// The faces of the domain, and the region of each.
-    pub fn faces(&self) -> Vec<(Face, u32)> {
-        let mut regions: Vec<Option<Side>> = vec![None; self.spade.num_all_faces()];
-        let mut open = Vec::new();
-        for (&[low, high], feature) in &self.features {
-            let edge = self.spade.get_edge_from_neighbors(handle(low), handle(high));
-            let Some(edge) = edge else { continue };
-            for (edge, side) in [edge, edge.rev()].into_iter().zip(feature.sides) {
-                open.extend(edge.face().as_inner().map(|face| (face, side)));
-            }
-        }
-        while let Some((face, side)) = open.pop() {
-            if regions[face.index()].replace(side).is_some() {
-                continue;
-            }
-            for edge in face.adjacent_edges().into_iter().filter(|e| !e.is_constraint_edge()) {
-                let next = edge.rev().face().as_inner();
-                let unknown = next.filter(|next| regions[next.index()].is_none());
-                open.extend(unknown.map(|next| (next, side)));
-            }
-        }
-        let faces = self.spade.inner_faces().filter_map(|face| {
-            let region = regions[face.index()].flatten()?;
-            Some((described(face), region))
-        });
-        faces.collect()
+    pub fn faces(&self) -> impl IndexedParallelIterator<Item = Option<(Face, u32)>> {
+        let all = self.cells.triangles().par_iter().enumerate();
+        all.map(|(number, face)| Some((self.face(number as u32), face.side?)))
     }
 
-    /// The face that holds a place, looked for from a point near it.
-    pub fn locate(&self, place: Point2<f64>, near: u32) -> Option<Face> {
-        use PositionInTriangulation::{OnEdge, OnFace};
-        let face = match self.spade.locate_with_hint(place, handle(near)) {
-            OnFace(face) => Some(self.spade.face(face)),
-            OnEdge(edge) => self.spade.directed_edge(edge).face().as_inner(),
-            _ => None,
-        };
-        face.map(described)
+    /// A face.
+    fn face(&self, number: FaceNumber) -> Face {
+        let points = self.cells.triangle(number).points;
+        Face { number, points, corners: self.cells.corners(number) }
+    }
+
+    /// The face that holds a place, looked for around the one that did before points were added.
+    pub fn locate(&self, place: Point2<f64>, around: FaceNumber) -> Option<Face> {
+        let mut seen = vec![around];
+        let mut next = 0;
+        while let Some(&face) = seen.get(next) {
+            let is_outside = |&corner: &usize| self.cells.side_of(face, corner, place) < 0.0;
+            if !(0..3).any(|corner| is_outside(&corner)) {
+                return Some(self.face(face));
+            }
+            if seen.len() < FACES_AROUND {
+                let beyond = self.neighbours(face).filter(|beyond| !seen.contains(beyond));
+                let beyond: arrayvec::ArrayVec<_, 3> = beyond.collect();
+                seen.extend(beyond);
+            }
+            next += 1;
+        }
+        None
     }
 
     /// What is met on the straight way from the middle of a face to a place.
     pub fn way(&self, from: &Face, to: Point2<f64>) -> Way {
         let start = centroid(&from.corners);
-        let mut face = self.face(from.number);
-        let mut entry: Option<EdgeHandle> = None;
-        for _ in 0..self.spade.num_all_faces() {
-            let ahead = face.adjacent_edges().into_iter().find(|edge| {
-                let [a, b] = edge.positions();
-                Some(*edge) != entry
-                    && edge.side_query(to).is_on_right_side()
+        let mut face = from.number;
+        let mut entry = None;
+        for _ in 0..self.cells.triangles().len() {
+            let ahead = (0..3).find(|&corner| {
+                let [a, b] = self.edge_positions(face, corner);
+                Some(corner) != entry
+                    && self.cells.side_of(face, corner, to) < 0.0
                     && cross(start, to, a) <= 0.0
                     && cross(start, to, b) >= 0.0
             });
-            let Some(edge) = ahead else {
-                let inside = face.adjacent_edges().into_iter();
-                let holds = inside.clone().all(|edge| !edge.side_query(to).is_on_right_side());
-                return if holds { Way::Free(face.fix()) } else { Way::Lost };
+            let Some(corner) = ahead else {
+                let holds = (0..3).all(|corner| self.cells.side_of(face, corner, to) >= 0.0);
+                return if holds { Way::Free(face) } else { Way::Lost };
             };
-            if edge.is_constraint_edge() {
-                return Way::Blocked(ends(edge));
+            if self.cells.triangle(face).borders[corner].is_kept {
+                return Way::Blocked(sorted(self.cells.triangle(face).edge(corner)));
             }
-            let Some(next) = edge.rev().face().as_inner() else { return Way::Lost };
-            (face, entry) = (next, Some(edge.rev()));
+            let Some((next, corner)) = self.cells.twin((face, corner)) else { return Way::Lost };
+            (face, entry) = (next, Some(corner));
         }
         Way::Lost
+    }
+
+    fn edge_positions(&self, face: FaceNumber, corner: usize) -> [Point2<f64>; 2] {
+        self.cells.triangle(face).edge(corner).map(|point| self.position(point))
     }
 
     /// The features that a new point in the given face would see under more than a right angle.
@@ -183,21 +166,20 @@ impl Triangulation {
         let mut seen = vec![face];
         let mut next = 0;
         let mut found = Vec::new();
-        while next < seen.len() {
-            let face = self.face(seen[next]);
+        while let Some(&face) = seen.get(next) {
             next += 1;
-            for edge in face.adjacent_edges() {
-                if edge.is_constraint_edge() {
-                    let [a, b] = edge.positions();
+            for (corner, border) in self.cells.triangle(face).borders.iter().enumerate() {
+                if border.is_kept {
+                    let [a, b] = self.edge_positions(face, corner);
                     let dot = (a.x - place.x) * (b.x - place.x) + (a.y - place.y) * (b.y - place.y);
                     if dot < -SAME * a.distance_2(b) {
-                        found.push(ends(edge));
+                        found.push(sorted(self.cells.triangle(face).edge(corner)));
                     }
-                } else if let Some(beyond) = edge.rev().face().as_inner() {
-                    let (centre, radius) = beyond.circumcircle();
-                    if !seen.contains(&beyond.fix()) && centre.distance_2(place) < radius {
-                        seen.push(beyond.fix());
-                    }
+                } else if !seen.contains(&border.beyond)
+                    && self.cells.twin((face, corner)).is_some()
+                    && self.cells.is_in_circle(border.beyond, place)
+                {
+                    seen.push(border.beyond);
                 }
             }
         }
@@ -208,38 +190,107 @@ impl Triangulation {
 
     /// The numbers of the faces beside a face, not across features.
     pub fn neighbours(&self, face: FaceNumber) -> impl Iterator<Item = FaceNumber> {
-        let edges = self.face(face).adjacent_edges().into_iter();
-        let inner = edges.filter(|edge| !edge.is_constraint_edge());
-        inner.filter_map(|edge| edge.rev().face().as_inner().map(|face| face.fix()))
+        let inner = self.cells.triangle(face).borders.iter().filter(|border| !border.is_kept);
+        inner.map(|border| border.beyond).filter(|&beyond| beyond != super::linked::NONE)
     }
 
-    /// Adds a point inside the domain; nothing if there is one already.
-    pub fn insert(&mut self, place: Point2<f64>, near: u32) -> Option<u32> {
-        let before = self.count();
-        let vertex = self.spade.insert_with_hint(place, handle(near)).ok()?;
-        (self.count() > before).then_some(vertex.index() as u32)
+    /// Adds a point inside the domain, looked for around a face; nothing if there is one already.
+    pub fn insert(&mut self, place: Point2<f64>, around: FaceNumber) -> Option<u32> {
+        let place = mitigate_underflow(place);
+        let face = self.locate(place, around)?;
+        if face.corners.contains(&place) || self.cells.triangle(face.number).side.is_none() {
+            return None;
+        }
+        let on = (0..3).find(|&corner| self.cells.side_of(face.number, corner, place) == 0.0);
+        match on {
+            Some(corner) => self.insert_on((face.number, corner), place),
+            None => Some(self.insert_in(face.number, place)),
+        }
+    }
+
+    fn insert_in(&mut self, face: FaceNumber, place: Point2<f64>) -> u32 {
+        let point = self.add_position(place);
+        let around = self.cells.split(face, point);
+        self.cells.make_delaunay(around.to_vec());
+        point
+    }
+
+    /// Only where no feature is: these have points of their own.
+    fn insert_on(&mut self, edge: (FaceNumber, usize), place: Point2<f64>) -> Option<u32> {
+        if self.cells.triangle(edge.0).borders[edge.1].is_kept {
+            return None;
+        }
+        self.cells.twin(edge)?;
+        let point = self.add_position(place);
+        let around = self.cells.split_edge(edge, point)?;
+        self.cells.make_delaunay(around.to_vec());
+        Some(point)
+    }
+
+    fn add_position(&mut self, place: Point2<f64>) -> u32 {
+        self.cells.positions.push(place);
+        self.cells.positions.len() as u32 - 1
+    }
+
+    /// Settles what Delaunay's rule leaves open around points of number `first_new` or above.
+    /// Returns where points are to be added for that, each with a face near.
+    pub fn settle_ties(&mut self, first_new: u32) -> Vec<(Point2<f64>, FaceNumber)> {
+        ties::settle(&mut self.cells, first_new)
     }
 
     /// Halves a feature: at its middle, or where a curve has its own. Returns the new point.
-    pub fn halve(&mut self, edge: [u32; 2], halvings: u8) -> Option<u32> {
-        let feature = *self.features.get(&edge)?;
-        let place = self.middle(edge);
-        let [from, to] = edge.map(handle);
-        let kept = self.spade.get_edge_from_neighbors(from, to)?.as_undirected().fix();
-        // a middle is beside its edge for rounding, and must not find it in its way
-        self.spade.remove_constraint_edge(kept);
-        let before = self.count();
-        let vertex = self.spade.insert_with_hint(place, from).ok();
-        let Some(vertex) = vertex.filter(|_| self.count() > before) else {
-            self.spade.add_constraint(from, to);
-            return None;
+    pub fn halve(&mut self, ends: [u32; 2], halvings: u8) -> Option<u32> {
+        let feature = *self.features.get(&ends)?;
+        let edge = self.cells.find(ends)?;
+        let twin = self.cells.twin(edge)?;
+        let place = mitigate_underflow(self.middle(ends));
+        let point = if self.is_seen(edge, place) && self.is_seen(twin, place) {
+            let point = self.add_position(place);
+            let around = self.cells.split_edge(edge, point)?;
+            self.cells.make_delaunay(around.to_vec());
+            point
+        } else {
+            let from = [edge, twin].into_iter().find(|&edge| self.holds(edge.0, place))?;
+            self.move_into(from, place)
         };
-        self.features.remove(&edge);
-        for (end, half) in [from, to].into_iter().zip(feature.halves(halvings)) {
-            self.spade.add_constraint(end, vertex);
-            self.features.insert([end.index() as u32, vertex.index() as u32], half);
+        self.features.remove(&ends);
+        for (end, half) in ends.into_iter().zip(feature.halves(halvings)) {
+            self.features.insert([end, point], half);
         }
-        Some(vertex.index() as u32)
+        Some(point)
+    }
+
+    /// Whether the triangle beside an edge becomes two, both counter-clockwise, if a place is
+    /// the edge's middle.
+    fn is_seen(&self, edge: (FaceNumber, usize), place: Point2<f64>) -> bool {
+        let [a, b] = self.edge_positions(edge.0, edge.1);
+        let apex = self.position(self.cells.triangle(edge.0).points[edge.1]);
+        orientation(apex, a, place) > 0.0 && orientation(apex, place, b) > 0.0
+    }
+
+    fn holds(&self, face: FaceNumber, place: Point2<f64>) -> bool {
+        (0..3).all(|corner| self.cells.side_of(face, corner, place) > 0.0)
+    }
+
+    /// Two edges to a point inside the triangle beside a feature take its place. What lies
+    /// between belongs to the other side then.
+    fn move_into(&mut self, edge: (FaceNumber, usize), place: Point2<f64>) -> u32 {
+        let [a, b] = self.cells.triangle(edge.0).edge(edge.1);
+        let beyond = self.cells.twin(edge).and_then(|twin| self.cells.triangle(twin.0).side);
+        let point = self.add_position(place);
+        let mut around = self.cells.split(edge.0, point).to_vec();
+        if let Some(old) = self.cells.find([a, b]) {
+            self.cells.keep(old, false);
+            self.cells.set_side(old.0, beyond);
+            around.push(old);
+        }
+        for end in [a, b] {
+            if let Some(half) = self.cells.find([end, point]) {
+                self.cells.keep(half, true);
+            }
+        }
+        self.cells.make_delaunay(around);
+        point
     }
 
     /// Where a feature is halved: on a curve that has both its ends, if that place is in one
@@ -264,37 +315,13 @@ impl Triangulation {
         if mix(from, to, 0.5).distance_2(place) > 0.2501 * from.distance_2(to) {
             return false;
         }
-        let [low, high] = edge.map(handle);
-        let Some(edge) = self.spade.get_edge_from_neighbors(low, high) else { return false };
-        let edge = if edge.side_query(place).is_on_left_side() { edge } else { edge.rev() };
-        match edge.face().as_inner() {
-            // beyond the hull there is nothing
-            None => true,
-            Some(face) => {
-                let mut others = face.adjacent_edges().into_iter().filter(|other| *other != edge);
-                others.all(|other| other.side_query(place).is_on_left_side())
-            }
-        }
-    }
-
-    fn face(&self, number: FaceNumber) -> FaceHandle<'_> {
-        self.spade.face(number)
-    }
-}
-
-fn handle(point: u32) -> FixedVertexHandle {
-    FixedVertexHandle::from_index(point as usize)
-}
-
-fn ends(edge: EdgeHandle) -> [u32; 2] {
-    sorted(edge.vertices().map(|vertex| vertex.index() as u32))
-}
-
-fn described(face: FaceHandle) -> Face {
-    Face {
-        number: face.fix(),
-        points: face.vertices().map(|vertex| vertex.index() as u32),
-        corners: face.positions(),
+        let edges = self.cells.find(edge).into_iter();
+        let mut both = edges.flat_map(|edge| [Some(edge), self.cells.twin(edge)]).flatten();
+        both.any(|(face, edge)| {
+            let others = (0..3).filter(|&corner| corner != edge);
+            let is_inside = |corner| self.cells.side_of(face, corner, place) > 0.0;
+            self.cells.side_of(face, edge, place) >= 0.0 && others.map(is_inside).all(|is| is)
+        })
     }
 }
 

@@ -10,7 +10,6 @@
 
 mod centroid;
 pub mod delaunay;
-mod edge_hasher;
 mod longest_edge;
 mod marked_tetrahedron;
 mod marks;

@@ -7,8 +7,8 @@
 //! are new themselves.
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
-use super::edge_hasher::EdgeMap;
 use super::marked_tetrahedron::{MarkedTetrahedron, TetrahedronMarks};
 use super::{Marks, NewPoint, RefineError, Refinement};
 use crate::interruption::checkpoint;
@@ -142,7 +142,7 @@ struct Bisection<'a> {
     tetrahedra: Vec<MarkedTetrahedron>,
     parents: Vec<u32>,
     /// The middles of divided edges.
-    middles: EdgeMap<u32>,
+    middles: FxHashMap<[u32; 2], u32>,
     /// The divided edges, in the order of their middles.
     edges: Vec<[u32; 2]>,
     /// The last round in which an edge at each point was divided.
@@ -155,7 +155,7 @@ impl<'a> Bisection<'a> {
             mesh,
             tetrahedra: tetrahedra.to_vec(),
             parents: (0..tetrahedra.len() as u32).collect(),
-            middles: EdgeMap::default(),
+            middles: FxHashMap::default(),
             edges: Vec::new(),
             rounds: vec![0; mesh.points().len()],
         }

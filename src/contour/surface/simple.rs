@@ -15,6 +15,7 @@ use super::contour_surface::{ContourSurface, SurfacePoint};
 use super::division::Marks;
 use super::handedness::{is_sliver, signed_volume};
 use super::tessellation::corner_edges;
+use super::uniform::cut;
 use crate::bernstein::{PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
 use crate::contour::crossings::crossings;
 use crate::contour::rounding;
@@ -252,17 +253,15 @@ static POLYGONS: LazyLock<[ArrayVec<[u8; 2], 4>; 32]> = LazyLock::new(|| {
     })
 });
 
-/// Adds the triangles of a polygon, of a quadrilateral cut by its shorter diagonal.
-fn add_polygon([a, b, c, d]: [u32; 4], surface: &mut ContourSurface) {
+/// Adds the triangles of a polygon.
+fn add_polygon(around: [u32; 4], surface: &mut ContourSurface) {
+    let [a, b, c, d] = around;
     if d == NONE {
         surface.triangles.push([a, b, c]);
-        return;
+    } else {
+        let triangles = cut(around.map(|n| surface.points[n as usize].position));
+        surface.triangles.extend(triangles.map(|triangle| triangle.map(|n| around[n])));
     }
-    let position = |n: u32| surface.points[n as usize].position;
-    let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
-    let triangles =
-        if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-    surface.triangles.extend(triangles);
 }
 
 #[cfg(test)]

@@ -45,26 +45,25 @@ fn four_sided(patch: &Patch, corners: [Ray; 4], sides: u32, tessellation: &mut T
     }
 }
 
-/// Adds a quadrilateral, cut by its shorter diagonal; by the other one if a triangle would have no
-/// area, as where three corners are on an edge of the mesh that is on the level.
-fn add_quadrilateral([a, b, c, d]: [u32; 4], tessellation: &mut Tessellation) {
-    let position = |n: u32| tessellation.points[n as usize].position;
-    let length = |n: u32, m: u32| (position(m) - position(n)).norm_squared();
-    let has_area = |from: u32, to: u32, beside: u32| {
-        let [along, across] = [to, beside].map(|n| position(n) - position(from));
-        along.cross(&across) != Vector::zeros()
+fn add_quadrilateral(around: [u32; 4], tessellation: &mut Tessellation) {
+    let triangles = cut(around.map(|n| tessellation.points[n as usize].position));
+    tessellation.triangles.extend(triangles.map(|triangle| triangle.map(|n| around[n])));
+}
+
+/// The triangles of a quadrilateral, as places of its corners: cut by its shorter diagonal; by the
+/// other one if a triangle would have no area, as where three corners are on an edge of the mesh
+/// that is on the level.
+pub fn cut(corners: [Vector; 4]) -> [[usize; 3]; 2] {
+    let length = |n: usize, m: usize| (corners[m] - corners[n]).norm_squared();
+    let have_area = |triangles: [[usize; 3]; 2]| {
+        triangles.iter().all(|[a, b, c]| {
+            let [along, across] = [b, c].map(|&n| corners[n] - corners[*a]);
+            along.cross(&across) != Vector::zeros()
+        })
     };
-    let leaves_area = |from: u32, to: u32| {
-        [a, b, c, d].iter().filter(|&&n| n != from && n != to).all(|&n| has_area(from, to, n))
-    };
-    let first_is_shorter = length(a, c) <= length(b, d);
-    let [shorter, longer] = if first_is_shorter { [[a, c], [b, d]] } else { [[b, d], [a, c]] };
-    let takes_shorter = leaves_area(shorter[0], shorter[1]) || !leaves_area(longer[0], longer[1]);
-    if takes_shorter == first_is_shorter {
-        tessellation.triangles.extend([[a, b, c], [a, c, d]]);
-    } else {
-        tessellation.triangles.extend([[a, b, d], [b, c, d]]);
-    }
+    let (one, other) = ([[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]);
+    let [shorter, longer] = if length(0, 2) <= length(1, 3) { [one, other] } else { [other, one] };
+    if have_area(shorter) || !have_area(longer) { shorter } else { longer }
 }
 
 /// The weighted mean of rays. The weights are whole numbers with the sum `total`, so the

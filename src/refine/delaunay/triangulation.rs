@@ -318,9 +318,9 @@ impl Triangulation {
         let edges = self.cells.find(edge).into_iter();
         let mut both = edges.flat_map(|edge| [Some(edge), self.cells.twin(edge)]).flatten();
         both.any(|(face, edge)| {
-            let others = (0..3).filter(|&corner| corner != edge);
+            let mut others = (0..3).filter(|&corner| corner != edge);
             let is_inside = |corner| self.cells.side_of(face, corner, place) > 0.0;
-            self.cells.side_of(face, edge, place) >= 0.0 && others.map(is_inside).all(|is| is)
+            self.cells.side_of(face, edge, place) >= 0.0 && others.all(is_inside)
         })
     }
 }

@@ -23,3 +23,4 @@ pub use extreme::{Extreme, recursive_extreme};
 pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 pub use levels::{LevelError, Levels};
 pub use ranges::CellRanges;
+pub(crate) use ranges::holds;

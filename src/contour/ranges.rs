@@ -95,19 +95,17 @@ impl CellRanges {
         tolerance: impl Fn([f64; 2]) -> f64 + Sync,
         bounds: impl Fn(usize) -> [f64; 2] + Sync,
     ) -> Vec<u32> {
-        let holds = |range: [f64; 2]| {
-            let [low, high] = range;
-            // the exact comparison settles nearly all cells
-            let outside = level < low || level > high;
-            !outside || (low - level).max(level - high) <= tolerance(range)
-        };
-        let may_hold = |range: [f32; 2]| range != EMPTY && holds(range.map(f64::from));
-        self.ranges
-            .par_iter()
-            .enumerate()
-            .filter(|(cell, range)| may_hold(**range) && holds(bounds(*cell)))
-            .map(|(cell, _)| cell as u32)
-            .collect()
+        let holds = |cell: &u32| holds(bounds(*cell as usize), level, &tolerance);
+        self.cells_near(level, &tolerance).into_par_iter().filter(holds).collect()
+    }
+
+    /// The same but for a few cells more, of which only ranges in single precision hold the
+    /// level: quicker for those who look at each cell anyway.
+    pub fn cells_near(&self, level: f64, tolerance: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<u32> {
+        let may_hold =
+            |range: [f32; 2]| range != EMPTY && holds(range.map(f64::from), level, &tolerance);
+        let numbered = self.ranges.par_iter().enumerate();
+        numbered.filter(|(_, range)| may_hold(**range)).map(|(cell, _)| cell as u32).collect()
     }
 
     /// Least and greatest value that the interpolant attains, by the recursive
@@ -169,6 +167,13 @@ impl CellRanges {
         });
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
     }
+}
+
+/// Whether a range holds a level, give or take its tolerance.
+pub fn holds([low, high]: [f64; 2], level: f64, tolerance: impl Fn([f64; 2]) -> f64) -> bool {
+    // the exact comparison settles nearly all cells
+    let outside = level < low || level > high;
+    !outside || (low - level).max(level - high) <= tolerance([low, high])
 }
 
 /// An extreme value of a cell, or a bound of it.

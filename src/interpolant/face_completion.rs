@@ -195,62 +195,74 @@ impl FarPoint {
         opposite: Option<usize>,
     ) {
         let at = frame.barycentric(&self.position);
+        if !self.is_finite() || at.iter().any(|weight| !weight.is_finite()) {
+            return;
+        }
         let continued = start.barycentric_gradient(&at).map(|derivative| derivative / 3.0);
         let distance = 1.0 + at.iter().map(|weight| weight.abs()).sum::<f64>();
         let weight = distance.powi(-2 * ORDER);
-        let mut of_value = [0.0; 4];
-        let mut continued_value = 0.0;
         for (end, corner) in frame.corners().iter().enumerate() {
-            let factors = factors(&at, end);
             if Some(end) != opposite {
                 let known = self.value + self.gradient.dot(&(corner - self.position)) / 3.0;
-                equations.add(weight, &factors, known - continued[end]);
+                equations.add(weight, &factors(&at, end), known - continued[end]);
             }
-            continued_value += at[end] * continued[end];
-            of_value = [0, 1, 2, 3].map(|face| of_value[face] + at[end] * factors[face]);
         }
+        let continued_value: f64 = at.iter().zip(continued).map(|(at, end)| at * end).sum();
+        // the sum of the corners' factors, weighed likewise
+        let of_value = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
+            .map(|[i, j, k]: [usize; 3]| 6.0 * at[i] * at[j] * at[k]);
         equations.add(VALUE * weight, &of_value, self.value - continued_value);
+    }
+
+    fn is_finite(&self) -> bool {
+        self.value.is_finite() && self.gradient.iter().all(|slope| slope.is_finite())
     }
 }
 
 /// The factors of the coefficients amid the faces, by their opposite corners, in the
 /// blossom at a corner and twice a place.
 fn factors(at: &Barycentric4, corner: usize) -> [f64; 4] {
-    let product = |opposite: usize| {
-        let others = (0..4).filter(|&n| n != corner && n != opposite);
-        2.0 * others.map(|n| at[n]).product::<f64>()
-    };
-    [0, 1, 2, 3].map(|opposite| if opposite == corner { 0.0 } else { product(opposite) })
+    let [a, b, c, d] = *at;
+    match corner {
+        0 => [0.0, 2.0 * c * d, 2.0 * b * d, 2.0 * b * c],
+        1 => [2.0 * c * d, 0.0, 2.0 * a * d, 2.0 * a * c],
+        2 => [2.0 * b * d, 2.0 * a * d, 0.0, 2.0 * a * b],
+        _ => [2.0 * b * c, 2.0 * a * c, 2.0 * a * b, 0.0],
+    }
 }
 
 /// Linear equations for four numbers, gathered for their least-squares solution.
 #[derive(Clone, Copy, Debug, Default)]
 struct NormalEquations {
-    matrix: Matrix4<f64>,
-    right: Vector4<f64>,
+    /// Rows; nothing above the diagonal.
+    matrix: [[f64; 4]; 4],
+    right: [f64; 4],
 }
 
 impl NormalEquations {
-    /// Adds an equation, unless it is not finite.
+    /// Adds an equation.
     fn add(&mut self, weight: f64, factors: &[f64; 4], right: f64) {
-        let factors = Vector4::from(*factors);
-        let (weighed, side) = (factors * weight, factors * (weight * right));
-        if side.iter().all(|x| x.is_finite()) && weighed.dot(&factors).is_finite() {
-            self.matrix += weighed * factors.transpose();
-            self.right += side;
+        for i in 0..4 {
+            let weighed = weight * factors[i];
+            for j in 0..=i {
+                self.matrix[i][j] += weighed * factors[j];
+            }
+            self.right[i] += weighed * right;
         }
     }
 
     /// The solution; a face that no equation knows stays where it is.
     fn solve(mut self) -> Estimate {
-        let known = [0, 1, 2, 3].map(|n| self.matrix[(n, n)] > 0.0);
+        let known = [0, 1, 2, 3].map(|n| self.matrix[n][n] > 0.0);
         for (n, &known) in known.iter().enumerate() {
-            let entry = &mut self.matrix[(n, n)];
+            let entry = &mut self.matrix[n][n];
             *entry = if known { *entry * (1.0 + ROUNDING) } else { 1.0 };
         }
-        let Some(factor) = Cholesky::new(self.matrix) else { return Estimate::default() };
-        let solution = factor.solve(&self.right);
-        let variances = factor.inverse().diagonal();
+        let matrix = Matrix4::from_fn(|i, j| if j <= i { self.matrix[i][j] } else { 0.0 });
+        let Some(factor) = Cholesky::new(matrix) else { return Estimate::default() };
+        let lower = factor.l_dirty();
+        let solution = factor.solve(&Vector4::from(self.right));
+        let variances = variances(lower);
         let weights = [0, 1, 2, 3].map(|n| if known[n] { 1.0 / variances[n] } else { 0.0 });
         let finite = solution.iter().chain(&weights).all(|x| x.is_finite());
         if finite {
@@ -259,4 +271,20 @@ impl NormalEquations {
             Estimate::default()
         }
     }
+}
+
+/// The diagonal of the inverse of `L Lᵀ`: the sums of squares of the columns of the inverse of
+/// `L`.
+fn variances(lower: &Matrix4<f64>) -> [f64; 4] {
+    let mut variances = [0.0; 4];
+    for (column, variance) in variances.iter_mut().enumerate() {
+        let mut inverse = [0.0; 4];
+        for row in column..4 {
+            let unit = if row == column { 1.0 } else { 0.0 };
+            let known: f64 = (column..row).map(|n| lower[(row, n)] * inverse[n]).sum();
+            inverse[row] = (unit - known) / lower[(row, row)];
+            *variance += inverse[row] * inverse[row];
+        }
+    }
+    variances
 }

@@ -32,7 +32,7 @@ use cell::Cell;
 use patch::Patch;
 use piece::Piece;
 use settle::settle;
-use simple::SimpleCells;
+use simple::Sorted;
 use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
 use walls::Walls;
@@ -79,12 +79,13 @@ pub fn contour_surface(
         Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
     };
     for &level in levels {
-        let active = active_cells(interpolant, ranges, level);
-        let (mut simple, others) = match fineness {
-            Fineness::PointsPerSide(2) => SimpleCells::new(interpolant, level, &active),
-            _ => (SimpleCells::default(), active.clone()),
+        let Sorted { mut simple, others, around } = match fineness {
+            Fineness::PointsPerSide(2) => {
+                let near = ranges.cells_near(level, |range| rounding::of_range(range, level));
+                Sorted::new(interpolant, level, &near)
+            }
+            _ => Sorted::without_simple(active_cells(interpolant, ranges, level)),
         };
-        let around = simple::around(interpolant, &others, &active);
         let mut cells = cells_at(interpolant, ranges, level, &others, &around);
         surface.counts.active += simple.len() + cells.len();
         let first_new_vertex = first_new_vertex(interpolant);

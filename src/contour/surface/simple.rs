@@ -18,7 +18,7 @@ use super::tessellation::corner_edges;
 use super::uniform::cut;
 use crate::bernstein::{PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
 use crate::contour::crossings::crossings;
-use crate::contour::rounding;
+use crate::contour::{holds, rounding};
 use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
 
@@ -51,33 +51,57 @@ pub fn edge_key(low: u32, high: u32) -> EdgeKey {
 /// Where the crossing of each edge of simple cells is in the surface.
 pub type Crossings = FxHashMap<EdgeKey, u32>;
 
-impl SimpleCells {
-    /// The simple ones of the active cells at a level, and the numbers of the others.
-    pub fn new(
-        interpolant: &dyn TetrahedronCubics,
-        level: f64,
-        active: &[u32],
-    ) -> (Self, Vec<u32>) {
+/// The cells that are active at a level.
+pub struct Sorted {
+    /// The simple ones.
+    pub simple: SimpleCells,
+    /// The numbers of the others.
+    pub others: Vec<u32>,
+    /// The numbers of all active cells that share points with the others, these included.
+    pub around: Vec<u32>,
+}
+
+impl Sorted {
+    /// No cells are taken to be simple.
+    pub fn without_simple(active: Vec<u32>) -> Self {
+        Self { simple: SimpleCells::default(), around: active.clone(), others: active }
+    }
+
+    /// Those of some cells that are active.
+    pub fn new(interpolant: &dyn TetrahedronCubics, level: f64, cells: &[u32]) -> Self {
         let judge = |&number: &u32| {
             checkpoint();
             judge(interpolant, level, number)
         };
-        let judged: Vec<Judged> = active.par_iter().map(judge).collect();
-        let slivers = numbers(active, &judged, |judged| matches!(judged, Judged::Sliver));
+        let judged: Vec<Judged> = cells.par_iter().map(judge).collect();
+        let numbers = |wanted: &dyn Fn(&Judged) -> bool| -> Vec<u32> {
+            let pairs = cells.iter().zip(&judged).filter(|(_, judged)| wanted(judged));
+            pairs.map(|(&number, _)| number).collect()
+        };
         // slivers turn as the cells around them do
-        let beside_slivers = around(interpolant, &slivers, active);
-        let (mut simple, mut others) = (Vec::with_capacity(active.len()), Vec::new());
+        let slivers = numbers(&|judged| matches!(judged, Judged::Sliver));
+        let beside_slivers = around(interpolant, &slivers, cells);
         let mut beside_slivers = beside_slivers.iter().peekable();
-        for (&number, judged) in active.iter().zip(judged) {
+        let (mut simple, mut others) = (Vec::with_capacity(cells.len()), Vec::new());
+        for (&number, judged) in cells.iter().zip(&judged) {
             let is_beside = beside_slivers.next_if(|beside| **beside == number).is_some();
             match judged {
-                Judged::Simple(cell) if !is_beside => simple.push(cell),
+                Judged::Inactive => {}
+                Judged::Simple(cell) if !is_beside => simple.push(*cell),
                 _ => others.push(number),
             }
         }
-        (Self(simple), others)
+        let around = if others.is_empty() {
+            Vec::new()
+        } else {
+            let active = numbers(&|judged| !matches!(judged, Judged::Inactive));
+            around(interpolant, &others, &active)
+        };
+        Self { simple: SimpleCells(simple), others, around }
     }
+}
 
+impl SimpleCells {
     /// How many there are.
     pub fn len(&self) -> usize {
         self.0.len()
@@ -144,6 +168,7 @@ impl SimpleCells {
 
 /// What a cell is.
 enum Judged {
+    Inactive,
     Simple(SimpleCell),
     Sliver,
     Other,
@@ -152,12 +177,14 @@ enum Judged {
 fn judge(interpolant: &dyn TetrahedronCubics, level: f64, number: u32) -> Judged {
     let mesh = interpolant.mesh();
     let corners = mesh.corners(number as usize);
-    let volume = signed_volume(&corners);
+    let cubic = interpolant.cubic(number as usize);
+    let bounds = cubic.bounds().into();
+    if !holds(bounds, level, |range| rounding::of_range(range, level)) {
+        return Judged::Inactive;
+    }
     if is_sliver(&corners) {
         return Judged::Sliver;
     }
-    let cubic = interpolant.cubic(number as usize);
-    let bounds = cubic.bounds().into();
     let above_level = TetrahedronCubic::new(cubic.coefficients.map(|c| c - level));
     let is_clear =
         |values: &[f64], near: f64| values.iter().fold(true, |all, v| all & (v.abs() > near));
@@ -174,7 +201,7 @@ fn judge(interpolant: &dyn TetrahedronCubics, level: f64, number: u32) -> Judged
         points: order.map(|place| points[usize::from(place)]),
         order,
         signs: order.map(|place| signs[usize::from(place)]),
-        right_handed: (volume > 0.0) == is_even,
+        right_handed: (signed_volume(&corners) > 0.0) == is_even,
     })
 }
 
@@ -191,14 +218,8 @@ fn ascending(points: [u32; 4]) -> ([u8; 4], bool) {
     (keys.map(|key| (key & 3) as u8), is_even)
 }
 
-/// The numbers of the active cells that were judged in a way.
-fn numbers(active: &[u32], judged: &[Judged], wanted: impl Fn(&Judged) -> bool) -> Vec<u32> {
-    let pairs = active.iter().zip(judged);
-    pairs.filter(|(_, judged)| wanted(judged)).map(|(&number, _)| number).collect()
-}
-
 /// The active cells that have a point of some cells, these themselves included.
-pub fn around(interpolant: &dyn TetrahedronCubics, cells: &[u32], active: &[u32]) -> Vec<u32> {
+fn around(interpolant: &dyn TetrahedronCubics, cells: &[u32], active: &[u32]) -> Vec<u32> {
     if cells.is_empty() {
         return Vec::new();
     }

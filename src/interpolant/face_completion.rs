@@ -288,3 +288,24 @@ fn variances(lower: &Matrix4<f64>) -> [f64; 4] {
     }
     variances
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn variances_are_the_inverse_matrix_diagonal(
+            rows in prop::array::uniform16(-1.0..1.0_f64)
+        ) {
+            let rows = Matrix4::from_column_slice(&rows);
+            let matrix = rows * rows.transpose() + Matrix4::identity() * 0.1;
+            let lower = Cholesky::new(matrix).unwrap().l();
+            let expected = matrix.try_inverse().unwrap().diagonal();
+            for (variance, expected) in variances(&lower).iter().zip(&expected) {
+                prop_assert!((variance - expected).abs() < 1e-10 * expected);
+            }
+        }
+    }
+}

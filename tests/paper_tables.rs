@@ -170,12 +170,13 @@ fn tables_5_14_to_5_16() {
 }
 
 /// Problem 1: all monitors by error are better than a uniform mesh, and about as good as in the
-/// thesis. The surface area knows no errors: it halves triangles by their size, and a mesh between
-/// two sizes is as good as its larger ones, those of the uniform mesh of the row before.
+/// thesis. The surface area knows no errors, and may lose: its mesh is better than the uniform one
+/// of the row before.
 #[test]
 fn tables_5_12_and_5_13() {
-    // why not all as good: ARCHITECTURE.md
-    let most = [f64::INFINITY, f64::INFINITY, 1.5, 1.0, 1.5];
+    // symmetric diagonals cost what was met before them, 2.5, 1.4, 1.0, 1.4 and a gain of 1.7: see
+    // ARCHITECTURE.md
+    let most = [f64::INFINITY, 2.8, 1.5, 1.0, 1.5];
     for (n, method) in METHODS.into_iter().enumerate().skip(1) {
         for size in 0..4 {
             let [errors, defects] = [&REFINED[0], &REFINED[1]].map(|table| {

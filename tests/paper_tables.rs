@@ -174,9 +174,7 @@ fn tables_5_14_to_5_16() {
 /// of the row before.
 #[test]
 fn tables_5_12_and_5_13() {
-    // symmetric diagonals cost what was met before them, 2.5, 1.4, 1.0, 1.4 and a gain of 1.7: see
-    // ARCHITECTURE.md
-    let most = [f64::INFINITY, 2.8, 1.5, 1.0, 1.5];
+    let most = [f64::INFINITY, 2.1, 1.1, 0.7, 1.0];
     for (n, method) in METHODS.into_iter().enumerate().skip(1) {
         for size in 0..4 {
             let [errors, defects] = [&REFINED[0], &REFINED[1]].map(|table| {
@@ -188,7 +186,7 @@ fn tables_5_12_and_5_13() {
             if method == Method::SurfaceArea {
                 assert!(size == 0 || errors.0 < rows(1)[0][size - 1].average_error, "{place}");
             } else {
-                assert!(errors.1 > 1.5 && defects.1 > 10.0, "{place}");
+                assert!(errors.1 > 2.2 && defects.1 > 10.0, "{place}");
             }
         }
     }

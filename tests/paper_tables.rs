@@ -170,12 +170,11 @@ fn tables_5_14_to_5_16() {
 }
 
 /// Problem 1: all monitors by error are better than a uniform mesh, and about as good as in the
-/// thesis. The surface area knows no errors: it halves triangles by their size, and a mesh between
-/// two sizes is as good as its larger ones, those of the uniform mesh of the row before.
+/// thesis. The surface area knows no errors, and may lose: its mesh is better than the uniform one
+/// of the row before.
 #[test]
 fn tables_5_12_and_5_13() {
-    // why not all as good: ARCHITECTURE.md
-    let most = [f64::INFINITY, f64::INFINITY, 1.5, 1.0, 1.5];
+    let most = [f64::INFINITY, 2.1, 1.1, 0.7, 1.0];
     for (n, method) in METHODS.into_iter().enumerate().skip(1) {
         for size in 0..4 {
             let [errors, defects] = [&REFINED[0], &REFINED[1]].map(|table| {
@@ -187,7 +186,7 @@ fn tables_5_12_and_5_13() {
             if method == Method::SurfaceArea {
                 assert!(size == 0 || errors.0 < rows(1)[0][size - 1].average_error, "{place}");
             } else {
-                assert!(errors.1 > 1.5 && defects.1 > 10.0, "{place}");
+                assert!(errors.1 > 2.2 && defects.1 > 10.0, "{place}");
             }
         }
     }

@@ -3,8 +3,11 @@
 //! Where four points or more lie on a circle, as far as rounding can tell, they make a polygon of
 //! which every triangulation is Delaunay, and rounding and the order of insertion would choose.
 //! Here geometry does, in a way that every symmetry of the mesh respects: the shorter diagonals
-//! first, of equal ones those whose lines pass nearer to the middle of the mesh, through which all
-//! lines of symmetry go.
+//! first, of equal ones those whose lines are farther from the middle of the mesh, through which
+//! all lines of symmetry go. These lie along the boundary rather than across it, as the level lines
+//! of most solutions do, and an edge along a level line has the smaller error. One that cuts off a
+//! corner of the domain is the last: of a triangle with two sides on the boundary a solver learns
+//! nothing that the boundary values do not say.
 //!
 //! Diagonals that are equal by this are each other's mirror images, and if they cross, as in a
 //! rectangle of which two sides are on both sides of a line of symmetry, there is no symmetric
@@ -99,6 +102,8 @@ fn on_one_circle(cells: &LinkedTriangles, first: u32, is_seen: &mut [bool]) -> V
 struct Polygon {
     points: Vec<u32>,
     corners: Vec<Point2<f64>>,
+    /// Whether the side from each corner to the next is kept: on a boundary or an interface.
+    is_kept: Vec<bool>,
 }
 
 /// A diagonal by the places of its ends, the lower first.
@@ -108,6 +113,8 @@ struct Diagonal {
     length: f64,
     /// From the middle of the mesh.
     distance: f64,
+    /// Whether both sides that it cuts off, being no more than two, are kept.
+    cuts_corner: bool,
 }
 
 /// Polygons of more points keep the diagonals that they have: their number is squared.
@@ -138,7 +145,16 @@ impl Polygon {
             let [a, b, c] = [0, 1, 2].map(|step| corners[(k + step) % count]);
             orientation(a, b, c) > 0.0
         });
-        is_convex.then_some(Self { points, corners })
+        let is_kept = (0..count).map(|k| {
+            let side = [points[k], points[(k + 1) % count]];
+            parts.iter().any(|&part| {
+                let triangle = cells.triangle(part);
+                (0..3)
+                    .any(|corner| triangle.edge(corner) == side && triangle.borders[corner].is_kept)
+            })
+        });
+        let is_kept = is_kept.collect();
+        is_convex.then_some(Self { points, corners, is_kept })
     }
 
     /// Diagonals that do not cross, as many as can be chosen without preferring one of two that
@@ -149,8 +165,14 @@ impl Polygon {
         let mut chosen: Vec<Diagonal> = Vec::new();
         all.sort_by(|one, other| one.length.total_cmp(&other.length));
         for equal in all.chunk_by_mut(|one, next| next.length - one.length <= SAME * size) {
-            equal.sort_by(|one, other| one.distance.total_cmp(&other.distance));
-            for equal in equal.chunk_by(|one, next| next.distance - one.distance <= SAME * size) {
+            equal.sort_by(|one, other| {
+                let farther = other.distance.total_cmp(&one.distance);
+                one.cuts_corner.cmp(&other.cuts_corner).then(farther)
+            });
+            let is_equal = |one: &Diagonal, next: &Diagonal| {
+                one.cuts_corner == next.cuts_corner && one.distance - next.distance <= SAME * size
+            };
+            for equal in equal.chunk_by(is_equal) {
                 let cross = |one: &Diagonal, others: &[Diagonal]| {
                     others.iter().any(|other| one.crosses(other))
                 };
@@ -169,9 +191,16 @@ impl Polygon {
         let diagonal = |ends: [usize; 2]| {
             let [p, q] = ends.map(|end| self.corners[end]);
             let length = p.distance_2(q).sqrt();
-            Diagonal { ends, length, distance: cross(p, q, centre).abs() / length }
+            let distance = cross(p, q, centre).abs() / length;
+            Diagonal { ends, length, distance, cuts_corner: self.cuts_corner(ends) }
         };
         inner.map(diagonal).collect()
+    }
+
+    fn cuts_corner(&self, [i, j]: [usize; 2]) -> bool {
+        let count = self.corners.len();
+        let both_kept = |first: usize| self.is_kept[first] && self.is_kept[(first + 1) % count];
+        (j - i == 2 && both_kept(i)) || (i + count - j == 2 && both_kept(j))
     }
 
     /// The parts into which diagonals divide the polygon.
@@ -220,7 +249,8 @@ mod tests {
 
     fn polygon(corners: &[[f64; 2]]) -> Polygon {
         let corners: Vec<_> = corners.iter().map(|&[x, y]| Point2::new(x, y)).collect();
-        Polygon { points: (0..corners.len() as u32).collect(), corners }
+        let is_kept = vec![false; corners.len()];
+        Polygon { points: (0..corners.len() as u32).collect(), corners, is_kept }
     }
 
     fn ends(polygon: &Polygon, centre: [f64; 2]) -> Vec<[usize; 2]> {
@@ -233,8 +263,8 @@ mod tests {
     #[test]
     fn diagonals_by_hand() {
         let rectangle = polygon(&[[-1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [-1.0, 1.0]]);
-        assert_eq!(ends(&rectangle, [5.0, 2.0]), [[0, 2]]);
-        assert_eq!(ends(&rectangle, [-5.0, 2.0]), [[1, 3]]);
+        assert_eq!(ends(&rectangle, [5.0, 2.0]), [[1, 3]]);
+        assert_eq!(ends(&rectangle, [-5.0, 2.0]), [[0, 2]]);
         // a line of symmetry through two sides: neither
         assert_eq!(ends(&rectangle, [0.0, 5.0]).len(), 0);
         let [face] = &rectangle.faces(&[])[..] else { panic!() };
@@ -251,9 +281,9 @@ mod tests {
         let hexagon = polygon(&corners);
         // all lines of symmetry pass through it: nothing is chosen
         assert_eq!(ends(&hexagon, [0.0, 0.0]).len(), 0);
-        // one does, through two corners
-        assert_eq!(ends(&hexagon, [9.0, 0.0]), [[0, 2], [0, 4], [2, 4]]);
-        // one does, through two sides: what is left is the rectangle amid
+        // one does, through two corners: what is left is the rectangle amid
+        assert_eq!(ends(&hexagon, [9.0, 0.0]), [[1, 5], [2, 4]]);
+        // one does, through two sides: the same, since diagonals farther off cross their images
         assert_eq!(ends(&hexagon, [0.0, 9.0]), [[1, 5], [2, 4]]);
         let faces = hexagon.faces(&hexagon.diagonals(Point2::new(0.0, 9.0)));
         let mut counts: Vec<usize> = faces.iter().map(Vec::len).collect();
@@ -261,5 +291,19 @@ mod tests {
         assert_eq!(counts, [3, 3, 4]);
         // none does
         assert_eq!(ends(&hexagon, [9.0, 1.0]).len(), 3);
+    }
+
+    #[test]
+    fn corners_of_the_domain_are_not_cut_off() {
+        let mut square = polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(ends(&square, [9.0, 9.0]), [[1, 3]]);
+        for first in 0..4 {
+            square.is_kept = (0..4).map(|side| side == first || side == (first + 1) % 4).collect();
+            let cut = if first % 2 == 0 { [[1, 3]] } else { [[0, 2]] };
+            // whatever lies farther from the middle
+            for centre in [[9.0, 9.0], [9.0, -8.0]] {
+                assert_eq!(ends(&square, centre), cut, "{first}");
+            }
+        }
     }
 }

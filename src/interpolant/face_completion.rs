@@ -242,10 +242,10 @@ struct NormalEquations {
 impl NormalEquations {
     /// Adds an equation.
     fn add(&mut self, weight: f64, factors: &[f64; 4], right: f64) {
-        for i in 0..4 {
+        for (i, row) in self.matrix.iter_mut().enumerate() {
             let weighed = weight * factors[i];
-            for j in 0..=i {
-                self.matrix[i][j] += weighed * factors[j];
+            for (entry, factor) in row[..=i].iter_mut().zip(factors) {
+                *entry += weighed * factor;
             }
             self.right[i] += weighed * right;
         }

@@ -358,7 +358,11 @@ def in_paraview() -> None:
     with tempfile.TemporaryDirectory() as folder:
         source = str(Path(folder) / "in.vtu")
         write_raw(grid_of(points, cells, *waves(points)), source)
-        environment = {**os.environ, "PYTHONPATH": str(Path(vc.__file__).parent.parent)}
+        # alone: ParaView has a numpy and a vtk of its own
+        alone = Path(folder) / "python"
+        shutil.copytree(Path(vc.__file__).parent, alone / "vtu2contour")
+        shutil.copy(here.parent / "paraview" / "sitecustomize.py", alone)
+        environment = {**os.environ, "PYTHONPATH": str(alone)}
         plugin = str(here.parent / "paraview" / "vtu2contour_plugin.py")
         script = str(here / "paraview_levels.py")
         run = subprocess.run(

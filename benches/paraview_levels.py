@@ -14,18 +14,16 @@ plugin, source, rounds = sys.argv[1:]
 LoadPlugin(plugin, remote=False, ns=globals())
 mesh = OpenDataFile(source)
 mesh.UpdatePipeline()
-ours = DEIContour(Input=mesh, PointsPerSide=2, ComputeNormals=1)  # noqa: F821 (the plugin's)
-ours.SelectInputScalars = ["POINTS", "u"]
+ours = DEIContour(  # noqa: F821 (the plugin's)
+    Input=mesh, ContourBy=["POINTS", "u"], PointsPerSide=2, ComputeNormals=1
+)
 theirs = Contour(Input=mesh, ContourBy=["POINTS", "u"], ComputeNormals=1)
 low, high = mesh.PointData["u"].GetRange()
 seconds = ([], [])
 for number in range(int(rounds) + 1):
     level = low + (high - low) * (0.4 + 0.2 * number / int(rounds))
-    for contour, taken, values in (
-        (ours, seconds[0], "ContourValues"),
-        (theirs, seconds[1], "Isosurfaces"),
-    ):
-        setattr(contour, values, [level])
+    for contour, taken in zip((ours, theirs), seconds, strict=True):
+        contour.Isosurfaces = [level]
         start = time.perf_counter()
         UpdatePipeline(proxy=contour)
         taken.append(time.perf_counter() - start)

@@ -13,6 +13,7 @@ use support::problem4;
 use support::problems_3d::PROBLEMS;
 use support::sampling::{errors_in_tetrahedra, errors_on_square};
 use support::tetrahedra::{graded_cube, kuhn_grid, random_cube, shuffled};
+use vtu2contour::bernstein::{TetrahedronCubic, TriangleCubic};
 use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
 use vtu2contour::interpolant::{Pci, TetrahedronCubics, TriangleCubics, Tricubic};
 use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
@@ -248,6 +249,85 @@ fn curved_surfaces_gain_too() {
         error(&Pci::new(&mesh, field)) / error(&Pci::with_quadratic_precision(&mesh, field));
     println!("relative error {relative:.3}");
     assert!(relative < 1.01);
+}
+
+/// How far a coefficient is from that of quadratic precision, and how far it may be: what the
+/// nine others of the triangle or face differ by.
+fn excess(coefficient: f64, plain: f64, others: impl Iterator<Item = f64> + Clone) -> f64 {
+    let spread = others.clone().fold(f64::MIN, f64::max) - others.fold(f64::MAX, f64::min);
+    (coefficient - plain).abs() - spread
+}
+
+/// Where they contradict each other, neighbours are not let draw hills.
+#[test]
+fn neighbours_say_no_more_than_the_data() {
+    let mut random = Random(77);
+    let (plane, solid) = (random_square(&mut random, 200), random_cube(&mut random, 200));
+    let values: Vec<f64> = (0..300).map(|_| random.uniform(-1.0, 1.0)).collect();
+    let gradients: Vec<Vector> =
+        values.iter().map(|value| Vector::repeat(10_f64.powf(3.0 * value))).collect();
+    let of = |count: usize| Field { values: &values[..count], gradients: &gradients[..count] };
+    let field = of(plane.points().len());
+    let (pci, plain) = (Pci::new(&plane, field), Pci::with_quadratic_precision(&plane, field));
+    for triangle in 0..plane.triangles().len() {
+        let (cubic, plain) = (pci.cubic(triangle), plain.cubic(triangle));
+        let centre = TriangleCubic::CENTRE;
+        let others = (0..10).filter(|&n| n != centre).map(|n| cubic.coefficients[n]);
+        let excess = excess(cubic.coefficients[centre], plain.coefficients[centre], others);
+        assert!(excess < 1e-9, "triangle {triangle}: {excess}");
+    }
+    let field = of(solid.points().len());
+    let (tricubic, plain) =
+        (Tricubic::new(&solid, field), Tricubic::with_quadratic_precision(&solid, field));
+    for tetrahedron in 0..solid.tetrahedra().len() {
+        let (cubic, plain) = (tricubic.cubic(tetrahedron), plain.cubic(tetrahedron));
+        for (face, vertices) in
+            TetrahedronCubic::FACES.into_iter().zip(TetrahedronCubic::FACE_VERTICES)
+        {
+            let edges = vertices.iter().flat_map(|&a| vertices.iter().map(move |&b| [a, b]));
+            let edges =
+                edges.filter(|[a, b]| a != b).flat_map(|edge| cubic.edge(edge).coefficients);
+            let excess = excess(cubic.coefficients[face], plain.coefficients[face], edges);
+            assert!(excess < 1e-9, "tetrahedron {tetrahedron}: {excess}");
+        }
+    }
+}
+
+/// A plateau beside a hill stays flat, and a wall on which the solution is zero has no value.
+#[test]
+fn what_is_constant_stays_constant() {
+    let hill = |p: &Vector| (p.x - 0.4).max(0.0).powi(2);
+    let slope_of_hill = |p: &Vector| Vector::x() * (2.0 * (p.x - 0.4).max(0.0));
+    let mut random = Random(78);
+    let plane = random_square(&mut random, 300);
+    let (values, gradients) = at_points(&plane, ("hill", hill, slope_of_hill));
+    let pci = Pci::new(&plane, Field { values: &values, gradients: &gradients });
+    let is_flat = |points: &&[u32; 3]| points.iter().all(|&point| values[point as usize] == 0.0);
+    assert!(plane.triangles().iter().filter(is_flat).count() > 100);
+    for (triangle, points) in plane.triangles().iter().enumerate() {
+        assert!(!is_flat(&points) || pci.cubic(triangle).coefficients == [0.0; 10]);
+    }
+
+    let solid = kuhn_grid(5);
+    let wave = |p: &Vector| p.x * (3.0 * p.y + 4.0 * p.z).sin();
+    let slope_of_wave = |p: &Vector| {
+        let (sin, cos) = (3.0 * p.y + 4.0 * p.z).sin_cos();
+        Vector::new(sin, 3.0 * p.x * cos, 4.0 * p.x * cos)
+    };
+    let (values, gradients) = at_points(&solid, ("wave", wave, slope_of_wave));
+    let tricubic = Tricubic::new(&solid, Field { values: &values, gradients: &gradients });
+    let mut walls = 0;
+    for (tetrahedron, points) in solid.tetrahedra().iter().enumerate() {
+        for (face, corners) in
+            TetrahedronCubic::FACES.into_iter().zip(TetrahedronCubic::FACE_VERTICES)
+        {
+            if corners.iter().all(|&corner| solid.points()[points[corner] as usize].x == 0.0) {
+                walls += 1;
+                assert_eq!(tricubic.cubic(tetrahedron).coefficients[face], 0.0);
+            }
+        }
+    }
+    assert!(walls > 20, "{walls}");
 }
 
 #[test]

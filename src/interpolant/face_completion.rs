@@ -14,9 +14,9 @@
 //! serve as well; without them the corner of a cube is not determined.
 //!
 //! Both tetrahedra of a face then have a coefficient for it, and the face takes their
-//! mean, weighed by how well each is determined. So the interpolant is continuous. If the
-//! data are those of one cubic, all are right. The error is of fourth order on meshes
-//! whose tetrahedra keep their shape.
+//! mean, weighed by how well each is determined, and within the limits of
+//! [`super::limit`]. So the interpolant is continuous. If the data are those of one cubic,
+//! all are right. The error is of fourth order on meshes whose tetrahedra keep their shape.
 //!
 //! What a face takes depends on its tetrahedra and their neighbours alone.
 //!
@@ -26,8 +26,8 @@ use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, Matrix4, Vector4};
 use rayon::prelude::*;
 
-use super::constant::ConstantTriangles;
 use super::hermite::quadratic_precision_of;
+use super::limit::{limited, spread};
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
@@ -56,10 +56,9 @@ const ROUNDING: f64 = 1e-13;
 /// whole mesh then. Most tetrahedra have all their faces in one block, none in more than two.
 const BLOCK: usize = 4096;
 
-/// For each face, what is to be added to the coefficient that reproduces quadratics; zero
-/// where the face's data are constant.
+/// For each face, what is to be added to the coefficient that reproduces quadratics; no more
+/// than the face's other coefficients differ by.
 pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<f64> {
-    let constant = ConstantTriangles::new(mesh.points(), *field);
     let mut corrections = vec![0.0; faces.count()];
     let mut listed = Listed::new(mesh);
     let points = mesh.points().len();
@@ -73,9 +72,8 @@ pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Fa
         let of_side = |side: &Side| &estimates[listed.places[side.tetrahedron()] as usize];
         corrections[block.clone()].par_iter_mut().zip(block).for_each(|(correction, face)| {
             let sides = faces.sides(face);
-            if !constant.contain(&sides[0].face(mesh)) {
-                *correction = mean_of_sides(sides, of_side);
-            }
+            let spread = spread(&sides[0].face(mesh), mesh.points(), field);
+            *correction = limited(mean_of_sides(sides, of_side), spread);
         });
     }
     corrections

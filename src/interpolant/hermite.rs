@@ -50,7 +50,7 @@ pub(super) fn hermite_on_edge(
 }
 
 /// The coefficient beside a vertex on an edge that leads away from it.
-fn beside(value: f64, gradient: &Vector, edge: &Vector) -> f64 {
+pub(super) fn beside(value: f64, gradient: &Vector, edge: &Vector) -> f64 {
     value + gradient.dot(edge) / 3.0
 }
 

@@ -5,13 +5,13 @@
 
 mod bent_edges;
 mod completion;
-mod constant;
 mod equation;
 mod face_completion;
 mod face_equations;
 pub mod family;
 mod hermite;
 mod least_squares;
+mod limit;
 mod linear;
 mod pci;
 mod pde_fit;

@@ -21,8 +21,8 @@ use rayon::prelude::*;
 
 use super::TriangleCubics;
 use super::completion::centre_correction;
-use super::constant::ConstantTriangles;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
+use super::limit::{limited, spread};
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
 use crate::interruption::checkpoint;
@@ -59,7 +59,9 @@ impl<'a> Pci<'a> {
     /// The interpolant of values and gradients alone, `b_111` from the neighbours.
     ///
     /// It reproduces cubics, but for triangles without a neighbour, which reproduce
-    /// quadratics. Its error is of fourth order on meshes whose triangles keep their
+    /// quadratics, and for cubics near `λ₀ λ₁ λ₂`, of which a triangle's own data see nothing:
+    /// `b_111` is no farther from that of quadratic precision than the other nine coefficients
+    /// from each other. Its error is of fourth order on meshes whose triangles keep their
     /// shape. It is the same for any number of threads, and up to rounding for any order
     /// of triangles and their corners. `b_111` depends on the values not quite linearly:
     /// neighbours that contradict each other count less.
@@ -67,14 +69,11 @@ impl<'a> Pci<'a> {
     /// `field` has one value and one gradient for each point of `mesh`.
     pub fn new(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
         let edges = Edges::new(mesh);
-        let constant = ConstantTriangles::new(mesh.points(), field);
         Self::by_triangle(mesh, field, |triangle| {
             let start = quadratic_precision(mesh, &field, triangle);
-            let centre = start.coefficients[TriangleCubic::CENTRE];
-            if constant.contain(&mesh.triangles()[triangle]) {
-                return centre;
-            }
-            centre + centre_correction(mesh, &field, &edges, triangle, &start)
+            let correction = centre_correction(mesh, &field, &edges, triangle, &start);
+            let spread = spread(&mesh.triangles()[triangle], mesh.points(), &field);
+            start.coefficients[TriangleCubic::CENTRE] + limited(correction, spread)
         })
     }
 

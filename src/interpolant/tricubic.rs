@@ -54,9 +54,11 @@ impl<'a> Tricubic<'a> {
     /// neighbours.
     ///
     /// It reproduces cubics, but for tetrahedra without a neighbour, which reproduce
-    /// quadratics. Its error is of fourth order on meshes whose tetrahedra keep their
-    /// shape. It is the same for any number of threads, and for any order of tetrahedra and
-    /// their corners.
+    /// quadratics, and for cubics of which a face's own data see next to nothing: the
+    /// coefficient amid a face is no farther from that of quadratic precision than the face's
+    /// other nine from each other. Its error is of fourth order on meshes whose tetrahedra
+    /// keep their shape. It is the same for any number of threads, and for any order of
+    /// tetrahedra and their corners.
     ///
     /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
     /// tetrahedron are stored.

@@ -10,8 +10,10 @@ use rayon::prelude::*;
 
 use super::extreme::{Extreme, recursive_extreme};
 use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
+use super::rounding;
 use crate::interpolant::{TetrahedronCubics, TriangleCubics};
 use crate::interruption::checkpoint;
+use crate::mesh::Subset;
 
 /// Certain bounds of the interpolant on each cell, computed once for all levels.
 ///
@@ -32,29 +34,48 @@ impl CellRanges {
     /// The ranges of all triangles of `interpolant`.
     pub fn new(interpolant: &dyn TriangleCubics) -> Self {
         let cells = interpolant.mesh().triangles().len();
-        Self::of_bounds(cells, |cell| {
-            let cubic = interpolant.cubic(cell);
-            usable(&cubic.coefficients, cubic.bounds())
-        })
+        Self::of_bounds(cells, |cell| of_triangle(interpolant, cell))
     }
 
     /// The ranges of all tetrahedra of `interpolant`.
     pub fn of_tetrahedra(interpolant: &dyn TetrahedronCubics) -> Self {
         let cells = interpolant.mesh().tetrahedra().len();
-        Self::of_bounds(cells, |cell| {
-            let cubic = interpolant.cubic(cell);
-            usable(&cubic.coefficients, cubic.bounds())
-        })
+        Self::of_bounds(cells, |cell| of_tetrahedron(interpolant, cell))
     }
 
-    fn of_bounds(cells: usize, bounds: impl Fn(usize) -> [f32; 2] + Sync + Send) -> Self {
-        let bounds = |cell| {
+    /// Ranges of so many cells, each within the bounds that are given; nothing for unusable cells.
+    pub fn of_bounds(
+        cells: usize,
+        bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync + Send,
+    ) -> Self {
+        let range = |cell| {
             checkpoint();
-            bounds(cell)
+            bounds(cell).map_or(EMPTY, rounded_outwards)
         };
-        let ranges: Vec<[f32; 2]> = (0..cells).into_par_iter().map(bounds).collect();
+        let ranges: Vec<[f32; 2]> = (0..cells).into_par_iter().map(range).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
         Self { ranges, unusable, excluded: 0 }
+    }
+
+    /// Takes for some triangles the range of their cubics, instead of bounds that were known
+    /// before.
+    pub fn narrow(&mut self, triangles: &Subset, interpolant: &dyn TriangleCubics) {
+        self.narrow_to(triangles, |cell| of_triangle(interpolant, cell));
+    }
+
+    /// The same for tetrahedra.
+    pub fn narrow_tetrahedra(&mut self, tetrahedra: &Subset, interpolant: &dyn TetrahedronCubics) {
+        self.narrow_to(tetrahedra, |cell| of_tetrahedron(interpolant, cell));
+    }
+
+    fn narrow_to(&mut self, cells: &Subset, bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync) {
+        let numbered = self.ranges.par_iter_mut().enumerate();
+        let usable = numbered.filter(|(cell, range)| **range != EMPTY && cells.contains(*cell));
+        let lost = usable.map(|(cell, range)| {
+            *range = bounds(cell).map_or(EMPTY, rounded_outwards);
+            usize::from(*range == EMPTY)
+        });
+        self.unusable += lost.sum::<usize>();
     }
 
     /// Leaves out the usable cells for which `excluded` says so; returns how many.
@@ -108,14 +129,43 @@ impl CellRanges {
         numbered.filter(|(_, range)| may_hold(**range)).map(|(cell, _)| cell as u32).collect()
     }
 
+    /// The cells whose range holds one of the levels (ascending), give or take the tolerance of
+    /// [`rounding::of_range`].
+    pub fn cells_near_any(&self, levels: &[f64]) -> Subset {
+        Subset::new(self.ranges.len(), |cell| {
+            let range = self.ranges[cell];
+            range != EMPTY && holds_any(range.map(f64::from), levels)
+        })
+    }
+
+    /// The cells that may attain more extreme values than any vertex does; `vertices` are the
+    /// values at those of a cell, and `bounds` are what its range was rounded of.
+    pub fn cells_beyond_vertices<const CORNERS: usize>(
+        &self,
+        vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
+        bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync,
+    ) -> Subset {
+        let at_vertices = |cell: usize, which: Extreme| which.best(&vertices(cell));
+        let extremes = [Extreme::Minimum, Extreme::Maximum]
+            .map(|which| self.extreme_at_vertices(which, &at_vertices));
+        let [Some(low), Some(high)] = extremes else {
+            return Subset::new(self.ranges.len(), |_| false);
+        };
+        let is_beyond = |[least, greatest]: [f64; 2]| least < low || greatest > high;
+        Subset::new(self.ranges.len(), |cell| {
+            // a plateau is beyond only by the rounding to single precision
+            let range = self.ranges[cell];
+            range != EMPTY && is_beyond(range.map(f64::from)) && bounds(cell).is_some_and(is_beyond)
+        })
+    }
+
     /// Least and greatest value that the interpolant attains, by the recursive
     /// search; nothing without usable cells.
     ///
     /// Levels strictly between them have a contour, which is not so for levels
     /// between the extreme coefficients.
     pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
-        let at_vertices =
-            |cell: usize, which: Extreme| which.best(&interpolant.cubic(cell).vertices());
+        let at_vertices = |cell: usize, which: Extreme| which.best(&interpolant.vertices(cell));
         let search =
             |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
         let bounds =
@@ -125,8 +175,7 @@ impl CellRanges {
 
     /// The same as [`CellRanges::attained`], for tetrahedra.
     pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
-        let at_vertices =
-            |cell: usize, which: Extreme| which.best(&interpolant.cubic(cell).vertices());
+        let at_vertices = |cell: usize, which: Extreme| which.best(&interpolant.vertices(cell));
         let search = |cell: usize, which: Extreme| {
             recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
         };
@@ -153,11 +202,9 @@ impl CellRanges {
         bounds: &OfCell,
         search: &OfCell,
     ) -> Option<f64> {
-        let usable = || (0..self.ranges.len()).into_par_iter().filter(|&c| self.ranges[c] != EMPTY);
-        let start =
-            usable().map(|cell| at_vertices(cell, which)).reduce_with(|a, b| which.better(a, b))?;
+        let start = self.extreme_at_vertices(which, at_vertices)?;
         let promises = |bound: f64| which.better(bound, start) != start;
-        let promising = usable().filter(|&cell| {
+        let promising = self.usable().filter(|&cell| {
             let wide = which.of(self.ranges[cell].map(f64::from));
             promises(wide) && promises(bounds(cell, which))
         });
@@ -166,6 +213,16 @@ impl CellRanges {
             search(cell, which)
         });
         Some(searched.reduce(|| start, |a, b| which.better(a, b)))
+    }
+
+    fn extreme_at_vertices(&self, which: Extreme, at_vertices: &OfCell) -> Option<f64> {
+        let values = self.usable().map(|cell| at_vertices(cell, which));
+        values.reduce_with(|a, b| which.better(a, b))
+    }
+
+    /// The cells that are not left out.
+    fn usable(&self) -> impl ParallelIterator<Item = usize> {
+        (0..self.ranges.len()).into_par_iter().filter(|&cell| self.ranges[cell] != EMPTY)
     }
 }
 
@@ -179,12 +236,34 @@ pub fn holds([low, high]: [f64; 2], level: f64, tolerance: impl Fn([f64; 2]) -> 
 /// An extreme value of a cell, or a bound of it.
 type OfCell<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
 
-/// The bounds of a cubic; empty if a coefficient is not finite.
-fn usable(coefficients: &[f64], (low, high): (f64, f64)) -> [f32; 2] {
+/// Whether a range holds any of the levels, which ascend, to rounding.
+fn holds_any(range: [f64; 2], levels: &[f64]) -> bool {
+    // farther ones are farther outside by more than their own rounding grows
+    let next = levels.partition_point(|&level| level < range[0]);
+    let nearest = &levels[next.saturating_sub(1)..levels.len().min(next + 1)];
+    nearest.iter().any(|&level| holds(range, level, |range| rounding::of_range(range, level)))
+}
+
+fn of_triangle(interpolant: &dyn TriangleCubics, cell: usize) -> Option<[f64; 2]> {
+    let cubic = interpolant.cubic(cell);
+    finite_bounds(&cubic.coefficients, cubic.bounds())
+}
+
+fn of_tetrahedron(interpolant: &dyn TetrahedronCubics, cell: usize) -> Option<[f64; 2]> {
+    let cubic = interpolant.cubic(cell);
+    finite_bounds(&cubic.coefficients, cubic.bounds())
+}
+
+/// The bounds of a cubic; nothing if a coefficient is not finite.
+fn finite_bounds(coefficients: &[f64], (low, high): (f64, f64)) -> Option<[f64; 2]> {
     // without a branch for each coefficient
     let has_nan = coefficients.iter().fold(false, |found, c| found | c.is_nan());
-    let is_usable = !has_nan && low.is_finite() && high.is_finite();
-    if is_usable { [rounded_down(low), -rounded_down(-high)] } else { EMPTY }
+    (!has_nan && low.is_finite() && high.is_finite()).then_some([low, high])
+}
+
+/// A range in single precision that holds the given one.
+fn rounded_outwards([low, high]: [f64; 2]) -> [f32; 2] {
+    [rounded_down(low), -rounded_down(-high)]
 }
 
 /// The greatest number of single precision that is not above a finite one.
@@ -200,17 +279,73 @@ mod tests {
 
     #[test]
     fn bounds_beyond_single_precision_hold_all_the_same() {
-        let [low, high] = usable(&[1e300, -1e300], (-1e300, 1e300));
-        assert_eq!([low, high], [f32::NEG_INFINITY, f32::INFINITY]);
-        assert_eq!(usable(&[1e300], (1e300, 1e300)), [f32::MAX, f32::INFINITY]);
-        assert_eq!(usable(&[f64::NAN], (0.0, 1.0)), EMPTY);
+        let whole = [f32::NEG_INFINITY, f32::INFINITY];
+        assert_eq!(rounded_outwards([-1e300, 1e300]), whole);
+        assert_eq!(rounded_outwards([1e300, 1e300]), [f32::MAX, f32::INFINITY]);
+        assert_eq!(finite_bounds(&[f64::NAN], (0.0, 1.0)), None);
+        assert_eq!(finite_bounds(&[0.0, f64::INFINITY], (0.0, f64::INFINITY)), None);
+    }
+
+    #[test]
+    fn narrowing_by_hand() {
+        let bounds = [Some([0.0, 1.0]), Some([0.0, 2.0]), None, Some([0.0, 9.0])];
+        let mut ranges = CellRanges::of_bounds(4, |cell| bounds[cell]);
+        assert_eq!(ranges.exclude(|cell| cell == 3), 1);
+        // the cubic of one cell is not finite after all
+        let narrower = [Some([0.0, 0.5]), None, None, Some([1.0, 2.0])];
+        ranges.narrow_to(&Subset::new(4, |cell| cell > 0), |cell| narrower[cell]);
+        assert_eq!(ranges.ranges, [[0.0, 1.0], EMPTY, EMPTY, EMPTY]);
+        assert_eq!((ranges.unusable(), ranges.leaves_out_any()), (2, true));
+    }
+
+    #[test]
+    fn cells_with_extremes_by_hand() {
+        let bounds = [[0.0, 1.0], [-0.5, 0.5], [0.0, 1.5], [0.1, 0.1]];
+        let ranges = CellRanges::of_bounds(4, |cell| Some(bounds[cell]));
+        let vertices = [[0.0, 1.0], [0.0, 0.1], [0.2, 0.3], [0.1, 0.1]];
+        let exact = |cell: usize| Some(bounds[cell]);
+        let beyond = ranges.cells_beyond_vertices(|cell| vertices[cell], exact);
+        assert_eq!(beyond.simplices().collect::<Vec<_>>(), [1, 2]);
+        // 0.1 is no number of single precision
+        let plateau = CellRanges::of_bounds(2, |_| Some([0.1, 0.1]));
+        assert!(plateau.cells_beyond_vertices(|_| [0.1; 3], |_| Some([0.1, 0.1])).is_empty());
+    }
+
+    #[test]
+    fn levels_in_ranges_by_hand() {
+        let levels = [-1.0, 0.0, 2.0, 5.0];
+        for (range, expected) in [
+            ([0.5, 1.5], false),
+            ([0.5, 2.0], true),
+            ([-3.0, 7.0], true),
+            ([2.000_001, 3.0], true),
+            ([2.1, 3.0], false),
+            ([5.1, 6.0], false),
+            ([-3.0, -1.1], false),
+            ([-3.0, -1.000_001], true),
+        ] {
+            assert_eq!(holds_any(range, &levels), expected, "{range:?}");
+        }
+        assert!(!holds_any([0.0, 1.0], &[]));
     }
 
     proptest! {
         #[test]
+        fn any_of_the_levels_is_one_of_them(
+            mut levels in prop::collection::vec(-9.0..9.0_f64, 0..5),
+            low in -10.0..10.0_f64,
+            width in 0.0..3.0_f64,
+        ) {
+            levels.sort_by(f64::total_cmp);
+            let range = [low, low + width];
+            let holds_one = |&level: &f64| holds(range, level, |r| rounding::of_range(r, level));
+            prop_assert_eq!(holds_any(range, &levels), levels.iter().any(holds_one));
+        }
+
+        #[test]
         fn rounding_outwards_is_certain_and_tight(low in any::<f64>(), width in 0.0..1e10_f64) {
             prop_assume!(low.is_finite() && (low + width).is_finite());
-            let [l, h] = usable(&[low, low + width], (low, low + width)).map(f64::from);
+            let [l, h] = rounded_outwards([low, low + width]).map(f64::from);
             prop_assert!(l <= low && low + width <= h);
             let largest = low.abs().max((low + width).abs());
             prop_assert!(largest > 1e38 || low - l <= 1e-6 * largest.max(1e-38));

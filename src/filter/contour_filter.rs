@@ -61,7 +61,7 @@ pub fn contour(
     // a wrong limit is better told before the work than after
     options.resolution(options.size.unwrap_or_else(|| solution.diagonal()))?;
     progress(Stage::Interpolant);
-    let interpolant = Interpolant::new(solution, options)?;
+    let interpolant = Interpolant::at_levels(solution, options)?;
     progress(Stage::Contour);
     let contours = interpolant.contours(options)?;
     progress(Stage::Data);

@@ -36,6 +36,19 @@ impl<'a> Interpolant<'a> {
         Ok(Self { solution, interpolation })
     }
 
+    /// The same for contours at the options' levels only: nothing else may be asked of it. It
+    /// takes much less time and memory if few cells hold the levels.
+    ///
+    /// # Errors
+    /// If no cell has finite values, or a level is no number.
+    pub(super) fn at_levels(
+        solution: Solution<'a>,
+        options: &ContourOptions,
+    ) -> Result<Self, FilterError> {
+        let interpolation = Cow::Owned(Interpolation::at_levels(&solution, options)?);
+        Ok(Self { solution, interpolation })
+    }
+
     /// The cubics on the two-dimensional cells, if there are any with finite values.
     pub fn in_triangles(&self) -> Option<Ranged<'_, dyn TriangleCubics + '_>> {
         let domain = self.solution.triangles.as_ref()?;

@@ -103,10 +103,18 @@ impl Interpolation {
             solution.triangles.as_ref().and_then(|d| in_triangles(solution, d, options));
         let tetrahedra =
             solution.tetrahedra.as_ref().and_then(|d| in_tetrahedra(solution, d, options));
+        Self::of_domains(solution, triangles, tetrahedra)
+    }
+
+    /// What is computed of the cells of both dimensions, taken together.
+    pub(super) fn of_domains(
+        solution: &Solution,
+        triangles: Option<Interpolated<OnTriangles>>,
+        tetrahedra: Option<Interpolated<OnTetrahedra>>,
+    ) -> Result<Self, FilterError> {
         let ranges = [triangles.as_ref().map(|i| i.range), tetrahedra.as_ref().map(|i| i.range)];
-        let joined = ranges.into_iter().flatten().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         let no_values = || FilterError::NoValues { name: solution.label.clone() };
-        let range = joined.ok_or_else(no_values)?;
+        let range = joined(ranges).ok_or_else(no_values)?;
         let warnings = warnings(solution, ranges);
         Ok(Self { triangles, tetrahedra, range, diagonal: solution.diagonal(), warnings })
     }
@@ -128,6 +136,11 @@ impl Interpolation {
         self.triangles.as_ref().map_or(0, |found| found.singular)
             + self.tetrahedra.as_ref().map_or(0, |found| found.singular)
     }
+}
+
+/// The range of what has one range or another, if anything has one.
+pub(super) fn joined(ranges: [Option<[f64; 2]>; 2]) -> Option<[f64; 2]> {
+    ranges.into_iter().flatten().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 fn in_triangles(

@@ -25,6 +25,7 @@ mod monitor;
 mod needed_arrays;
 mod options;
 mod output;
+mod partial_interpolation;
 mod pde_warning;
 mod picture;
 mod preview;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::contour_filter::prepared;
 use super::error::FilterError;
 use super::gradients::{GradientOrigin, Gradients};
-use super::interpolant::Interpolant;
+use super::interpolation::Interpolation;
 use super::options::ContourOptions;
 use super::solution::{Domain, Solution};
 use crate::simplices::{CellCounts, LeftOut};
@@ -44,8 +44,8 @@ pub struct Preview {
 /// As [`contour`](super::contour()), but for levels.
 pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Preview, FilterError> {
     let grid = prepared(Cow::Borrowed(grid), options)?;
-    let Interpolant { solution, interpolation } =
-        Interpolant::new(Solution::of_grid(&grid, options)?, options)?;
+    let solution = Solution::of_grid(&grid, options)?;
+    let interpolation = Interpolation::of_range(&solution, options)?;
     let (ghosts, unusable) = (interpolation.ghosts(), interpolation.unusable());
     let Solution { label, triangles, tetrahedra, left_out, folded, .. } = solution;
     let triangle_count = triangles.as_ref().map_or(0, Domain::count);

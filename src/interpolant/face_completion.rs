@@ -26,7 +26,7 @@ use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, Matrix4, Vector4};
 use rayon::prelude::*;
 
-use super::hermite::quadratic_precision_of;
+use super::hermite::{ascending, quadratic_precision_of};
 use super::limit::{limited, spread};
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
@@ -56,21 +56,31 @@ const ROUNDING: f64 = 1e-13;
 /// whole mesh then. Most tetrahedra have all their faces in one block, none in more than two.
 const BLOCK: usize = 4096;
 
-/// For each face, what is to be added to the coefficient that reproduces quadratics; no more
-/// than the face's other coefficients differ by.
-pub(super) fn face_corrections(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<f64> {
+/// For each face of the tetrahedra that are wanted, what is to be added to the coefficient that
+/// reproduces quadratics; no more than the face's other coefficients differ by. Zero for the
+/// other faces.
+pub(super) fn face_corrections(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    faces: &Faces,
+    is_wanted: impl Fn(usize) -> bool + Sync,
+) -> Vec<f64> {
+    let is_wanted =
+        |face: &usize| faces.sides(*face).iter().any(|side| is_wanted(side.tetrahedron()));
     let mut corrections = vec![0.0; faces.count()];
     let mut listed = Listed::new(mesh);
     let points = mesh.points().len();
     for begin in (0..points).step_by(BLOCK) {
         let block = faces.of_least_points(begin..points.min(begin + BLOCK));
-        listed.list(block.clone().flat_map(|face| faces.sides(face)));
+        let wanted = block.clone().filter(is_wanted);
+        listed.list(wanted.flat_map(|face| faces.sides(face)));
         let tetrahedra = listed.tetrahedra.par_iter();
         let estimates: Vec<Estimate> = tetrahedra
             .map(|&tetrahedron| estimate(mesh, field, faces, tetrahedron as usize))
             .collect();
         let of_side = |side: &Side| &estimates[listed.places[side.tetrahedron()] as usize];
-        corrections[block.clone()].par_iter_mut().zip(block).for_each(|(correction, face)| {
+        let numbered = corrections[block.clone()].par_iter_mut().zip(block);
+        numbered.filter(|(_, face)| is_wanted(face)).for_each(|(correction, face)| {
             let sides = faces.sides(face);
             let spread = spread(&sides[0].face(mesh), mesh.points(), field);
             *correction = limited(mean_of_sides(sides, of_side), spread);
@@ -121,8 +131,7 @@ fn mean_of_sides<'a>(sides: &[Side], estimate: impl Fn(&Side) -> &'a Estimate) -
 /// Sums are taken in the order of points' numbers, so that no bit depends on that of corners.
 fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: usize) -> Estimate {
     let points = mesh.tetrahedra()[tetrahedron];
-    let mut order = [0, 1, 2, 3];
-    order.sort_unstable_by_key(|&corner| points[corner]);
+    let order = ascending(&points);
     let points = order.map(|corner| points[corner]);
     let frame = TetrahedronFrame::new(points.map(|point| mesh.points()[point as usize]));
     if frame.is_degenerate() {

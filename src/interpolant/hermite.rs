@@ -5,6 +5,65 @@ use crate::bernstein::{SegmentCubic, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{TetrahedronMesh, Vector};
 
+/// What values and gradients at the corners of a tetrahedron say of its cubic: 16 of the 20
+/// coefficients.
+pub(super) struct Known {
+    /// The values at the corners.
+    vertices: [f64; 4],
+    /// The coefficient beside a corner on its edge to another.
+    toward: [[f64; 4]; 4],
+}
+
+impl Known {
+    /// Between points in any order.
+    pub fn new(points: &[u32; 4], positions: &[Vector], field: &Field) -> Self {
+        let points = points.map(|point| point as usize);
+        let vertices = points.map(|point| field.values[point]);
+        let corners = points.map(|point| positions[point]);
+        let mut toward = [[0.0; 4]; 4];
+        for (from, row) in toward.iter_mut().enumerate() {
+            let gradient = &field.gradients[points[from]];
+            for to in (0..4).filter(|&to| to != from) {
+                row[to] = beside(vertices[from], gradient, &(corners[to] - corners[from]));
+            }
+        }
+        Self { vertices, toward }
+    }
+
+    /// The coefficient amid the face between three corners that reproduces quadratics: a quarter
+    /// of its edges' coefficients less a sixth of its vertices'. Its bits depend on the order.
+    pub fn amid(&self, [a, b, c]: [usize; 3]) -> f64 {
+        let edge = |i: usize, j: usize| self.toward[i][j] + self.toward[j][i];
+        let edges = edge(a, b) + edge(b, c) + edge(c, a);
+        let vertices = self.vertices[a] + self.vertices[b] + self.vertices[c];
+        edges / 4.0 - vertices / 6.0
+    }
+
+    /// The least and the greatest of the coefficients between two corners; any, if one is not a
+    /// number.
+    pub fn range_on_edge(&self, i: usize, j: usize) -> [f64; 2] {
+        let ends = range_of_two(self.vertices[i], self.vertices[j]);
+        joined(ends, range_of_two(self.toward[i][j], self.toward[j][i]))
+    }
+
+    /// The cubic with the given coefficients amid the faces opposite to the corners.
+    fn cubic(&self, faces: [f64; 4]) -> TetrahedronCubic {
+        TetrahedronCubic::assemble(self.vertices, |from, to| self.toward[from][to], faces)
+    }
+}
+
+/// The lesser and the greater of two numbers.
+fn range_of_two(a: f64, b: f64) -> [f64; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+/// The range of what is in two ranges.
+pub(super) fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let low = if a[0] < b[0] { a[0] } else { b[0] };
+    let high = if a[1] > b[1] { a[1] } else { b[1] };
+    [low, high]
+}
+
 /// The cubic with the field's values and gradients at the vertices, and the given
 /// coefficients amid the faces opposite to them.
 pub(super) fn hermite(
@@ -13,24 +72,7 @@ pub(super) fn hermite(
     tetrahedron: usize,
     faces: [f64; 4],
 ) -> TetrahedronCubic {
-    hermite_of(&mesh.tetrahedra()[tetrahedron], mesh.points(), field, faces)
-}
-
-/// The same between points in any order.
-fn hermite_of(
-    points: &[u32; 4],
-    positions: &[Vector],
-    field: &Field,
-    faces: [f64; 4],
-) -> TetrahedronCubic {
-    let points = points.map(|point| point as usize);
-    let values = points.map(|point| field.values[point]);
-    let corners = points.map(|point| positions[point]);
-    let toward = |i: usize, j: usize| {
-        let edge = corners[j] - corners[i];
-        beside(values[i], &field.gradients[points[i]], &edge)
-    };
-    TetrahedronCubic::assemble(values, toward, faces)
+    Known::new(&mesh.tetrahedra()[tetrahedron], mesh.points(), field).cubic(faces)
 }
 
 /// The cubic on the edge between two points.
@@ -54,8 +96,7 @@ pub(super) fn beside(value: f64, gradient: &Vector, edge: &Vector) -> f64 {
     value + gradient.dot(edge) / 3.0
 }
 
-/// The cubic that reproduces quadratics: amid a face it has a quarter of the face's
-/// edge coefficients less a sixth of its vertex coefficients.
+/// The cubic that reproduces quadratics.
 pub(super) fn quadratic_precision(
     mesh: &TetrahedronMesh,
     field: &Field,
@@ -70,28 +111,28 @@ pub(super) fn quadratic_precision_of(
     positions: &[Vector],
     field: &Field,
 ) -> TetrahedronCubic {
-    let mut cubic = hermite_of(points, positions, field, [0.0; 4]);
-    let vertex = cubic.vertices();
-    for (position, [a, b, c]) in TetrahedronCubic::FACES.into_iter().zip(ascending_faces(points)) {
-        let edge = |i: usize, j: usize| {
-            let [_, near, far, _] = cubic.edge([i, j]).coefficients;
-            near + far
-        };
-        let edges = edge(a, b) + edge(b, c) + edge(c, a);
-        let vertices = vertex[a] + vertex[b] + vertex[c];
-        cubic.coefficients[position] = edges / 4.0 - vertices / 6.0;
-    }
-    cubic
+    let known = Known::new(points, positions, field);
+    known.cubic(ascending_faces(points).map(|face| known.amid(face)))
 }
 
 /// The corners of the face opposite each corner, in ascending order of their points:
 /// sums taken in this order have the same bits in both tetrahedra of a face.
 pub(super) fn ascending_faces(points: &[u32; 4]) -> [[usize; 3]; 4] {
-    let mut order = [0, 1, 2, 3];
-    order.sort_unstable_by_key(|&corner| points[corner]);
+    let order = ascending(points);
     let mut faces = [[0; 3]; 4];
     for (opposite, face) in order.into_iter().zip(TetrahedronCubic::FACE_VERTICES) {
         faces[opposite] = face.map(|place| order[place]);
     }
     faces
+}
+
+/// The corners in ascending order of their points.
+pub(super) fn ascending(points: &[u32; 4]) -> [usize; 4] {
+    let mut order = [0; 4];
+    for corner in 0..4 {
+        // a point that is there twice comes in the order of corners
+        let is_before = |&other: &usize| (points[other], other) < (points[corner], corner);
+        order[(0..4).filter(is_before).count()] = corner;
+    }
+    order
 }

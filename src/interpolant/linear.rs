@@ -33,6 +33,10 @@ impl TriangleCubics for Linear<'_, 3> {
     fn cubic(&self, triangle: usize) -> TriangleCubic {
         TriangleCubic::linear(self.corner_values(triangle))
     }
+
+    fn vertices(&self, triangle: usize) -> [f64; 3] {
+        self.corner_values(triangle)
+    }
 }
 
 impl TetrahedronCubics for Linear<'_, 4> {
@@ -46,5 +50,9 @@ impl TetrahedronCubics for Linear<'_, 4> {
         let faces = ascending_faces(&self.mesh.tetrahedra()[tetrahedron])
             .map(|[a, b, c]| (values[a] + values[b] + values[c]) / 3.0);
         TetrahedronCubic::assemble(values, toward, faces)
+    }
+
+    fn vertices(&self, tetrahedron: usize) -> [f64; 4] {
+        self.corner_values(tetrahedron)
     }
 }

@@ -15,7 +15,9 @@ mod limit;
 mod linear;
 mod pci;
 mod pde_fit;
+mod per_cell;
 mod pieces;
+mod reach;
 mod tricubic;
 
 pub use bent_edges::{bent_edges_of_tetrahedron, bent_edges_of_triangle};
@@ -25,6 +27,7 @@ pub use linear::Linear;
 pub use pci::{Centres, Pci};
 pub use pde_fit::PdeFit;
 pub use pieces::{Pieces, Taylor};
+pub use reach::{reach_in_tetrahedron, reach_on_triangle};
 pub use tricubic::{FaceCoefficients, Tricubic};
 
 use crate::bernstein::{SegmentCubic, TetrahedronCubic, TriangleCubic};
@@ -40,6 +43,12 @@ pub trait TriangleCubics: Sync {
 
     /// The cubic on a triangle.
     fn cubic(&self, triangle: usize) -> TriangleCubic;
+
+    /// The values at the corners of a triangle: as [`TriangleCubics::cubic`] has them, to the
+    /// last bit.
+    fn vertices(&self, triangle: usize) -> [f64; 3] {
+        self.cubic(triangle).vertices()
+    }
 }
 
 /// One cubic a tetrahedron, continuous from each tetrahedron to the next.
@@ -52,6 +61,12 @@ pub trait TetrahedronCubics: Sync {
 
     /// The cubic on a tetrahedron, its coefficients in the order of the mesh's corners.
     fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic;
+
+    /// The values at the corners of a tetrahedron: as [`TetrahedronCubics::cubic`] has them, to
+    /// the last bit.
+    fn vertices(&self, tetrahedron: usize) -> [f64; 4] {
+        self.cubic(tetrahedron).vertices()
+    }
 
     /// The cubic on an edge of a tetrahedron, from one corner to another: as
     /// [`TetrahedronCubics::cubic`] has it, to the last bit.

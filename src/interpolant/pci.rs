@@ -23,10 +23,11 @@ use super::TriangleCubics;
 use super::completion::centre_correction;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
 use super::limit::{limited, spread};
+use super::per_cell::PerCell;
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
 use crate::interruption::checkpoint;
-use crate::mesh::{Edges, TriangleMesh};
+use crate::mesh::{Edges, Subset, TriangleMesh};
 use crate::pde::LANES;
 
 /// The pure cubic interpolant of a field on a mesh of triangles.
@@ -40,8 +41,8 @@ pub struct Pci<'a> {
 /// What of a pure cubic interpolant is not read off the field.
 #[derive(Clone, Debug)]
 pub struct Centres {
-    /// `b_111` of each triangle.
-    coefficients: Vec<f64>,
+    /// `b_111` of each triangle, where it is not that of quadratic precision.
+    coefficients: PerCell<f64>,
     singular: usize,
 }
 
@@ -68,32 +69,38 @@ impl<'a> Pci<'a> {
     ///
     /// `field` has one value and one gradient for each point of `mesh`.
     pub fn new(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
-        let edges = Edges::new(mesh);
-        Self::by_triangle(mesh, field, |triangle| {
-            let start = quadratic_precision(mesh, &field, triangle);
-            let correction = centre_correction(mesh, &field, &edges, triangle, &start);
-            let spread = spread(&mesh.triangles()[triangle], mesh.points(), &field);
-            start.coefficients[TriangleCubic::CENTRE] + limited(correction, spread)
-        })
+        Self::without_pde(mesh, field, PerCell::All(completed(mesh, &field)))
+    }
+
+    /// The same on some of the triangles, to the last bit. The others have quadratic precision.
+    ///
+    /// It takes time and memory for them and their neighbours alone.
+    pub fn on_some(mesh: &'a TriangleMesh<'a>, field: Field<'a>, triangles: &Subset) -> Self {
+        let around = triangles.with_neighbours(mesh);
+        if around.len() > mesh.triangles().len() / 2 {
+            return Self::new(mesh, field);
+        }
+        let part = mesh.part(&around);
+        let with_neighbours = around.simplices().zip(completed(&part, &field));
+        let wanted = with_neighbours.filter(|(triangle, _)| triangles.contains(*triangle));
+        let coefficients = wanted.map(|(_, centre)| centre).collect();
+        Self::without_pde(mesh, field, PerCell::Some(triangles.clone(), coefficients))
     }
 
     /// The interpolant of values and gradients alone, each triangle by itself. It
     /// reproduces quadratics, and its error is of third order.
     ///
-    /// `field` has one value and one gradient for each point of `mesh`.
+    /// `field` has one value and one gradient for each point of `mesh`. Nothing is stored: all
+    /// coefficients are read off the field.
     pub fn with_quadratic_precision(mesh: &'a TriangleMesh<'a>, field: Field<'a>) -> Self {
-        Self::by_triangle(mesh, field, |triangle| {
-            quadratic_precision(mesh, &field, triangle).coefficients[TriangleCubic::CENTRE]
-        })
+        Self::without_pde(mesh, field, PerCell::None)
     }
 
-    /// The interpolant with the given `b_111` of each triangle.
-    fn by_triangle(
+    fn without_pde(
         mesh: &'a TriangleMesh<'a>,
         field: Field<'a>,
-        centre: impl Fn(usize) -> f64 + Sync + Send,
+        coefficients: PerCell<f64>,
     ) -> Self {
-        let coefficients = (0..mesh.triangles().len()).into_par_iter().map(centre).collect();
         Self { mesh, field, centres: Cow::Owned(Centres { coefficients, singular: 0 }) }
     }
 
@@ -109,7 +116,8 @@ impl<'a> Pci<'a> {
             .flat_map_iter(|chunk| collocate(mesh, &field, equation, chunk))
             .collect();
         let singular = collocated.iter().filter(|(_, singular)| *singular).count();
-        let coefficients = collocated.into_iter().map(|(centre, _)| centre).collect();
+        let centres = collocated.into_iter().map(|(centre, _)| centre);
+        let coefficients = PerCell::All(centres.collect());
         Self { mesh, field, centres: Cow::Owned(Centres { coefficients, singular }) }
     }
 
@@ -137,8 +145,27 @@ impl TriangleCubics for Pci<'_> {
     }
 
     fn cubic(&self, triangle: usize) -> TriangleCubic {
-        hermite(self.mesh, &self.field, triangle, self.centres.coefficients[triangle])
+        match self.centres.coefficients.get(triangle) {
+            Some(&centre) => hermite(self.mesh, &self.field, triangle, centre),
+            None => quadratic_precision(self.mesh, &self.field, triangle),
+        }
     }
+
+    fn vertices(&self, triangle: usize) -> [f64; 3] {
+        self.mesh.simplices()[triangle].map(|point| self.field.values[point as usize])
+    }
+}
+
+/// For each triangle `b_111` from the neighbours.
+fn completed(mesh: &TriangleMesh, field: &Field) -> Vec<f64> {
+    let edges = Edges::new(mesh);
+    let centre = |triangle: usize| {
+        let start = quadratic_precision(mesh, field, triangle);
+        let correction = centre_correction(mesh, field, &edges, triangle, &start);
+        let spread = spread(&mesh.triangles()[triangle], mesh.points(), field);
+        start.coefficients[TriangleCubic::CENTRE] + limited(correction, spread)
+    };
+    (0..mesh.triangles().len()).into_par_iter().map(centre).collect()
 }
 
 /// The cubic with the field's values and gradients at the vertices, and `centre`.
@@ -153,7 +180,11 @@ fn hermite(mesh: &TriangleMesh, field: &Field, triangle: usize, centre: f64) -> 
 }
 
 /// The cubic of values and gradients that reproduces quadratics.
-fn quadratic_precision(mesh: &TriangleMesh, field: &Field, triangle: usize) -> TriangleCubic {
+pub(super) fn quadratic_precision(
+    mesh: &TriangleMesh,
+    field: &Field,
+    triangle: usize,
+) -> TriangleCubic {
     hermite(mesh, field, triangle, 0.0).with_quadratic_centre()
 }
 

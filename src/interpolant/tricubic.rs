@@ -22,9 +22,10 @@ use super::face_completion::face_corrections;
 use super::face_equations::{FaceEquations, face_equations};
 use super::hermite::{hermite, hermite_on_edge, quadratic_precision};
 use super::least_squares::least_squares;
+use super::per_cell::PerCell;
 use crate::bernstein::{SegmentCubic, TetrahedronCubic};
 use crate::field::Field;
-use crate::mesh::{Faces, TetrahedronMesh};
+use crate::mesh::{Faces, Subset, TetrahedronMesh};
 use crate::pde::LANES;
 
 /// The tri-cubic interpolant of a field on a mesh of tetrahedra.
@@ -41,8 +42,9 @@ pub struct Tricubic<'a> {
 /// What of a tri-cubic interpolant is not read off the field.
 #[derive(Clone, Debug, Default)]
 pub struct FaceCoefficients {
-    /// The coefficients amid the faces of each tetrahedron; none for quadratic precision.
-    coefficients: Option<Vec<[f64; 4]>>,
+    /// The coefficients amid the faces of each tetrahedron, where they are not those of
+    /// quadratic precision.
+    coefficients: PerCell<[f64; 4]>,
     singular: usize,
 }
 
@@ -63,9 +65,29 @@ impl<'a> Tricubic<'a> {
     /// `field` has one value and one gradient for each point of `mesh`. Four numbers a
     /// tetrahedron are stored.
     pub fn new(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>) -> Self {
-        let coefficients = Some(completed(mesh, &field, &Faces::new(mesh)));
-        let faces = FaceCoefficients { coefficients, singular: 0 };
-        Self { mesh, field, faces: Cow::Owned(faces) }
+        let coefficients = completed(mesh, &field, &Faces::new(mesh));
+        Self::without_pde(mesh, field, PerCell::All(coefficients))
+    }
+
+    /// The same in some of the tetrahedra, to the last bit. The others have quadratic
+    /// precision, so the interpolant is continuous among those some only.
+    ///
+    /// It takes time and memory for them and their neighbours alone.
+    pub fn in_some(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, tetrahedra: &Subset) -> Self {
+        let around = with_all_that_speak(mesh, tetrahedra);
+        if around.len() > mesh.tetrahedra().len() / 2 {
+            return Self::new(mesh, field);
+        }
+        let coefficients = completed_in(mesh, &field, tetrahedra, &around);
+        Self::without_pde(mesh, field, PerCell::Some(tetrahedra.clone(), coefficients))
+    }
+
+    fn without_pde(
+        mesh: &'a TetrahedronMesh<'a>,
+        field: Field<'a>,
+        coefficients: PerCell<[f64; 4]>,
+    ) -> Self {
+        Self { mesh, field, faces: Cow::Owned(FaceCoefficients { coefficients, singular: 0 }) }
     }
 
     /// The interpolant of values and gradients alone, each face by itself. It reproduces
@@ -95,7 +117,7 @@ impl<'a> Tricubic<'a> {
         let singular = equations.iter().filter(|equations| equations.is_none()).count();
         let equations = equations.into_iter().map(Option::unwrap_or_default).collect();
         let corrections = least_squares(&numbered, equations);
-        let coefficients = Some(corrected(without, &numbered, &corrections));
+        let coefficients = PerCell::All(corrected(without, &numbered, &corrections));
         let faces = FaceCoefficients { coefficients, singular };
         Self { mesh, field, faces: Cow::Owned(faces) }
     }
@@ -125,24 +147,58 @@ impl<'a> Tricubic<'a> {
 
 /// For each tetrahedron the coefficients amid its faces, from the neighbours.
 fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 4]> {
-    let corrections = face_corrections(mesh, field, faces);
-    let coefficients = (0..mesh.tetrahedra().len()).into_par_iter().map(|tetrahedron| {
-        let start = quadratic_precision(mesh, field, tetrahedron);
-        TetrahedronCubic::FACES.map(|position| start.coefficients[position])
+    let corrections = face_corrections(mesh, field, faces, |_| true);
+    let tetrahedra = (0..mesh.tetrahedra().len()).into_par_iter();
+    let start = tetrahedra.map(|tetrahedron| amid_faces(mesh, field, tetrahedron));
+    corrected(start.collect(), faces, &corrections)
+}
+
+/// The same for some tetrahedra only; `around` are those and all that they ask.
+fn completed_in(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    tetrahedra: &Subset,
+    around: &Subset,
+) -> Vec<[f64; 4]> {
+    let part = mesh.part(around);
+    let faces = Faces::new(&part);
+    let is_wanted: Vec<bool> = around.simplices().map(|n| tetrahedra.contains(n)).collect();
+    let corrections = face_corrections(&part, field, &faces, |n| is_wanted[n]);
+    let wanted = (0..is_wanted.len()).filter(|&tetrahedron| is_wanted[tetrahedron]);
+    let completed = wanted.map(|tetrahedron| {
+        let mut coefficients = amid_faces(&part, field, tetrahedron);
+        correct(&mut coefficients, &faces.of_tetrahedra()[tetrahedron], &corrections);
+        coefficients
     });
-    corrected(coefficients.collect(), faces, &corrections)
+    completed.collect()
+}
+
+/// Some tetrahedra, and all on which their coefficients depend: neighbours have a say in their
+/// faces, and listen to their neighbours, on the boundary to those of these as well.
+fn with_all_that_speak(mesh: &TetrahedronMesh, tetrahedra: &Subset) -> Subset {
+    let speaking = tetrahedra.with_neighbours(mesh);
+    speaking.with_neighbours(mesh).with_neighbours(mesh)
+}
+
+/// The coefficients amid the faces of a tetrahedron that reproduce quadratics.
+fn amid_faces(mesh: &TetrahedronMesh, field: &Field, tetrahedron: usize) -> [f64; 4] {
+    let start = quadratic_precision(mesh, field, tetrahedron);
+    TetrahedronCubic::FACES.map(|position| start.coefficients[position])
 }
 
 /// For each tetrahedron the coefficients amid its faces, and what is to be added to that of
 /// each face.
 fn corrected(mut coefficients: Vec<[f64; 4]>, faces: &Faces, corrections: &[f64]) -> Vec<[f64; 4]> {
     let numbered = coefficients.par_iter_mut().zip(faces.of_tetrahedra());
-    numbered.for_each(|(coefficients, faces)| {
-        for (coefficient, face) in coefficients.iter_mut().zip(faces) {
-            *coefficient += corrections[*face as usize];
-        }
-    });
+    numbered.for_each(|(coefficients, faces)| correct(coefficients, faces, corrections));
     coefficients
+}
+
+/// Adds to the coefficients amid a tetrahedron's faces what is to be added to each.
+fn correct(coefficients: &mut [f64; 4], faces: &[u32; 4], corrections: &[f64]) {
+    for (coefficient, face) in coefficients.iter_mut().zip(faces) {
+        *coefficient += corrections[*face as usize];
+    }
 }
 
 impl TetrahedronCubics for Tricubic<'_> {
@@ -151,10 +207,14 @@ impl TetrahedronCubics for Tricubic<'_> {
     }
 
     fn cubic(&self, tetrahedron: usize) -> TetrahedronCubic {
-        match &self.faces.coefficients {
-            Some(faces) => hermite(self.mesh, &self.field, tetrahedron, faces[tetrahedron]),
+        match self.faces.coefficients.get(tetrahedron) {
+            Some(faces) => hermite(self.mesh, &self.field, tetrahedron, *faces),
             None => quadratic_precision(self.mesh, &self.field, tetrahedron),
         }
+    }
+
+    fn vertices(&self, tetrahedron: usize) -> [f64; 4] {
+        self.mesh.simplices()[tetrahedron].map(|point| self.field.values[point as usize])
     }
 
     fn edge(&self, tetrahedron: usize, edge: [usize; 2]) -> SegmentCubic {

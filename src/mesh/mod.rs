@@ -15,6 +15,7 @@ mod point_locator;
 mod random;
 mod refined_mesh;
 mod simplex_mesh;
+mod subset;
 mod tetrahedron_frame;
 
 pub use boundary::boundary_edges;
@@ -27,6 +28,7 @@ pub use point_locator::{Location, PointLocator};
 pub(crate) use random::Random;
 pub use refined_mesh::{PieceEdge, RefinedMesh, RefinedPiece, RefinedPlace, piece_edges};
 pub use simplex_mesh::{MeshError, SimplexMesh, TetrahedronMesh, TriangleMesh};
+pub use subset::Subset;
 pub use tetrahedron_frame::TetrahedronFrame;
 
 /// A point or a vector in space, in the mesh's unit of length.

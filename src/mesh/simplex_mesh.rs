@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::Vector;
 use super::frame::TriangleFrame;
+use super::subset::Subset;
 use super::tetrahedron_frame::TetrahedronFrame;
 
 /// Points in space and simplices of `CORNERS` corners each: its own, or a view of arrays
@@ -92,6 +93,12 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
                 Err(MeshError::PointOutOfRange { simplex, point, points })
             }
         }
+    }
+
+    /// Some of the simplices, with all points: these are not copied.
+    pub fn part(&self, subset: &Subset) -> SimplexMesh<'_, CORNERS> {
+        let simplices: Vec<_> = subset.simplices().map(|simplex| self.simplices[simplex]).collect();
+        SimplexMesh { points: Cow::Borrowed(&self.points), simplices: simplices.into() }
     }
 
     /// The points.

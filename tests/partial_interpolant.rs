@@ -1,0 +1,219 @@
+//! An interpolant that is computed in some cells only, for some levels only, is the same there as
+//! one that is computed everywhere.
+
+mod support;
+
+use proptest::prelude::*;
+use support::meshes::{Random, random_square};
+use support::tetrahedra::{kuhn_grid, random_cube};
+use vtu2contour::contour::Levels;
+use vtu2contour::field::Field;
+use vtu2contour::filter::{
+    ContourOptions, GradientSource, Interpolant, Solution, contour, preview,
+};
+use vtu2contour::interpolant::{
+    Pci, TetrahedronCubics, TriangleCubics, Tricubic, reach_in_tetrahedron, reach_on_triangle,
+};
+use vtu2contour::mesh::{SimplexMesh, Subset, TetrahedronMesh, Vector};
+use vtu2contour::vtk::{DataArray, UnstructuredGrid};
+
+/// A random number below a count.
+fn below(random: &mut Random, count: usize) -> usize {
+    random.uniform(0.0, count as f64) as usize
+}
+
+/// Values and gradients that contradict each other, so that many corrections are cut.
+fn noise(random: &mut Random, points: usize) -> (Vec<f64>, Vec<Vector>) {
+    let values = (0..points).map(|_| random.uniform(-1.0, 1.0)).collect();
+    let size = |random: &mut Random| 10_f64.powf(random.uniform(-2.0, 2.0));
+    let gradients = (0..points)
+        .map(|_| Vector::from([(); 3].map(|()| random.uniform(-1.0, 1.0) * size(random))));
+    (values, gradients.collect())
+}
+
+/// The same mesh with some simplices more, which share their sides with two others.
+fn with_branches<const CORNERS: usize>(
+    random: &mut Random,
+    mesh: &SimplexMesh<CORNERS>,
+) -> SimplexMesh<'static, CORNERS> {
+    let mut simplices = mesh.simplices().to_vec();
+    for _ in 0..5 {
+        let mut branch = simplices[below(random, simplices.len())];
+        branch[below(random, CORNERS)] = below(random, mesh.points().len()) as u32;
+        let is_simplex = (1..CORNERS).all(|n| !branch[..n].contains(&branch[n]));
+        simplices.extend(is_simplex.then_some(branch));
+    }
+    SimplexMesh::new(mesh.points().to_vec(), simplices).unwrap()
+}
+
+/// A few simplices, the most of them near each other.
+fn few<const CORNERS: usize>(random: &mut Random, mesh: &SimplexMesh<CORNERS>) -> Subset {
+    let count = mesh.simplices().len();
+    let chosen = [(); 3].map(|()| below(random, count));
+    let few = Subset::new(count, |simplex| chosen.contains(&simplex));
+    if below(random, 2) == 0 { few.with_neighbours(mesh) } else { few }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(30))]
+
+    #[test]
+    fn some_tetrahedra_have_the_same_bits(seed in 0..10_000_u64) {
+        let mut random = Random(seed);
+        let cube = random_cube(&mut random, 250);
+        let mesh = with_branches(&mut random, &cube);
+        let (values, gradients) = noise(&mut random, mesh.points().len());
+        let field = Field { values: &values, gradients: &gradients };
+        let some = few(&mut random, &mesh);
+        let (part, whole) = (Tricubic::in_some(&mesh, field, &some), Tricubic::new(&mesh, field));
+        let plain = Tricubic::with_quadratic_precision(&mesh, field);
+        let mut differing = 0;
+        for tetrahedron in 0..mesh.tetrahedra().len() {
+            let expected: &dyn TetrahedronCubics =
+                if some.contains(tetrahedron) { &whole } else { &plain };
+            prop_assert_eq!(part.cubic(tetrahedron), expected.cubic(tetrahedron));
+            differing += usize::from(part.cubic(tetrahedron) != whole.cubic(tetrahedron));
+        }
+        // it was not computed everywhere
+        prop_assert!(differing > mesh.tetrahedra().len() / 2);
+    }
+
+    #[test]
+    fn some_triangles_have_the_same_bits(seed in 0..10_000_u64) {
+        let mut random = Random(seed);
+        let square = random_square(&mut random, 100);
+        let mesh = with_branches(&mut random, &square);
+        let (values, gradients) = noise(&mut random, mesh.points().len());
+        let field = Field { values: &values, gradients: &gradients };
+        let some = few(&mut random, &mesh);
+        let (part, whole) = (Pci::on_some(&mesh, field, &some), Pci::new(&mesh, field));
+        let plain = Pci::with_quadratic_precision(&mesh, field);
+        let mut differing = 0;
+        for triangle in 0..mesh.triangles().len() {
+            let expected: &dyn TriangleCubics =
+                if some.contains(triangle) { &whole } else { &plain };
+            prop_assert_eq!(part.cubic(triangle), expected.cubic(triangle));
+            differing += usize::from(part.cubic(triangle) != whole.cubic(triangle));
+        }
+        prop_assert!(differing > mesh.triangles().len() / 2);
+    }
+
+    /// Without a bit of slack. Half of the data are wild, some are missing.
+    #[test]
+    fn no_coefficient_is_out_of_reach(seed in 0..10_000_u64) {
+        let mut random = Random(seed);
+        let (plane, solid) = (random_square(&mut random, 60), random_cube(&mut random, 60));
+        let (mut values, gradients) = noise(&mut random, 100);
+        values[below(&mut random, 60)] = f64::NAN;
+        let field = Field { values: &values, gradients: &gradients };
+        let within = |reach: Option<[f64; 2]>, coefficients: &[f64]| match reach {
+            Some([low, high]) => coefficients.iter().all(|b| (low..=high).contains(b)),
+            None => coefficients.iter().any(|b| !b.is_finite()),
+        };
+        let pci = Pci::new(&plane, field);
+        for triangle in 0..plane.triangles().len() {
+            let reach = reach_on_triangle(&plane, &field, triangle);
+            prop_assert!(within(reach, &pci.cubic(triangle).coefficients));
+        }
+        let tricubic = Tricubic::new(&solid, field);
+        for tetrahedron in 0..solid.tetrahedra().len() {
+            let reach = reach_in_tetrahedron(&solid, &field, tetrahedron);
+            prop_assert!(within(reach, &tricubic.cubic(tetrahedron).coefficients));
+        }
+    }
+}
+
+/// Tetrahedra and, below them, triangles, some of which are another process's.
+fn mixed_grid(
+    mesh: &TetrahedronMesh,
+    solution: impl Fn(&Vector) -> (f64, Vector),
+    is_ghost: impl Fn(&Vector) -> bool,
+) -> UnstructuredGrid {
+    let flat =
+        |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
+    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, flat(mesh.points())));
+    let is_below = |point: &&u32| mesh.points()[**point as usize].z == 0.0;
+    let mut ghosts: Vec<u8> = Vec::new();
+    for corners in mesh.tetrahedra() {
+        let ghost = u8::from(is_ghost(&mesh.points()[corners[0] as usize]));
+        grid.push_cell(10, &corners.map(i64::from));
+        ghosts.push(ghost);
+        let bottom: Vec<i64> = corners.iter().filter(is_below).map(|&p| i64::from(p)).collect();
+        if bottom.len() == 3 {
+            grid.push_cell(5, &bottom);
+            ghosts.push(ghost);
+        }
+    }
+    let (values, gradients): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(solution).unzip();
+    grid.point_data.push(DataArray::new("u", 1, values));
+    grid.point_data.push(DataArray::new("g", 3, flat(&gradients)));
+    grid.cell_data.push(DataArray::new("vtkGhostType", 1, ghosts));
+    grid
+}
+
+/// What is drawn and what is reported are those of the interpolant that is computed everywhere.
+fn check(grid: &UnstructuredGrid, levels: Levels) -> usize {
+    let options = ContourOptions {
+        levels,
+        array: Some("u".to_owned()),
+        gradient: GradientSource::Array("g".to_owned()),
+        ..ContourOptions::default()
+    };
+    let whole = Interpolant::new(Solution::of_grid(grid, &options).unwrap(), &options).unwrap();
+    let contours = whole.contours(&options).unwrap();
+    let expected = whole.output(&contours, options.output(grid)).poly_data(grid);
+    let found = contour(grid, &options, &mut |_| {}).unwrap();
+    assert_eq!(found.poly_data, expected);
+    assert_eq!(format!("{:?}", found.report), format!("{:?}", whole.report(&contours)));
+    let foretold = preview(grid, &options).unwrap();
+    assert_eq!(foretold.range, whole.interpolation.range);
+    assert_eq!(foretold.unusable, whole.interpolation.unusable());
+    assert_eq!(foretold.ghosts, whole.interpolation.ghosts());
+    expected.lines.len() + expected.polys.len()
+}
+
+/// Levels of which each is in few cells, as [`Tricubic::in_some`] computes all if most are asked.
+#[test]
+fn contours_and_reports_are_those_of_the_whole() {
+    let wave = |p: &Vector| {
+        let (s, c) = (3.0 * p.x + 2.0 * p.y + p.z).sin_cos();
+        (s + p.z * p.z, Vector::new(3.0 * c, 2.0 * c, c + 2.0 * p.z))
+    };
+    // on a plateau, then up a hill, whose foot and top are not at points
+    let hill = |p: &Vector| {
+        let rise = (p.x - 0.73).max(0.0);
+        (0.1 + rise * rise * (1.0 + p.y * (1.0 - p.y)), {
+            let along_y = rise * rise * (1.0 - 2.0 * p.y);
+            Vector::new(2.0 * rise * (1.0 + p.y * (1.0 - p.y)), along_y, 0.0)
+        })
+    };
+    let missing = |p: &Vector| {
+        let (u, g) = wave(p);
+        (if p.x > 0.8 && p.y > 0.8 { f64::NAN } else { u }, g)
+    };
+    let mesh = kuhn_grid(12);
+    let nowhere = |_: &Vector| false;
+    let right = |p: &Vector| p.x > 0.7;
+    let grids = [
+        (mixed_grid(&mesh, wave, nowhere), [-0.9, 0.3, 1.4]),
+        (mixed_grid(&mesh, wave, right), [-0.9, 0.3, 1.4]),
+        (mixed_grid(&mesh, missing, right), [-0.9, 0.3, 1.4]),
+        (mixed_grid(&mesh, hill, nowhere), [0.1, 0.101, 0.15]),
+    ];
+    for (grid, levels) in grids {
+        for level in levels {
+            assert!(check(&grid, Levels::Explicit(vec![level])) > 0, "{level}");
+        }
+        check(&grid, Levels::Explicit(vec![levels[0], levels[2]]));
+        check(&grid, Levels::Explicit(Vec::new()));
+        check(&grid, Levels::Explicit(vec![9.0]));
+        for range in [None, Some([levels[0], levels[1]])] {
+            for count in [1, 10] {
+                assert!(check(&grid, Levels::Equal { count, range }) > 0);
+            }
+        }
+        let options = ContourOptions { array: Some("u".to_owned()), ..ContourOptions::default() };
+        let [low, high] = preview(&grid, &options).unwrap().range;
+        check(&grid, Levels::Explicit(vec![low, high]));
+    }
+}

@@ -117,6 +117,21 @@ def test_an_interpolant_is_kept():
         same(kept.contour([level]), vc.contour(grid, [level], pde="uxx + uyy = -6"))
 
 
+def test_contours_for_once_are_those_of_a_kept_interpolant():
+    # few cells hold one of these levels, so few are computed for once
+    grid = solid(n=14)
+    kept = vc.MeshInterpolant(grid, scalars="u")
+    for levels in ([-0.99], [0.3], [0.95], 3):
+        found = vc.contour(grid, levels, scalars="u")
+        assert found.n_cells > 0
+        same(kept.contour(levels), found)
+    with pytest.warns(UserWarning, match="no contour") as once:
+        vc.contour(grid, [9.0], scalars="u")
+    with pytest.warns(UserWarning) as later:
+        kept.contour([9.0])
+    assert [str(w.message) for w in once] == [str(w.message) for w in later]
+
+
 @pytest.mark.parametrize("dtype", [np.int32, np.uint32, np.int64, np.uint64, np.int16])
 @pytest.mark.parametrize("real", [np.float64, np.float32])
 def test_types(dtype, real):

@@ -5,14 +5,16 @@ use std::borrow::Cow;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vtu2contour::filter::{ContourOptions, Interpolant, Locators, Monitored, Solution, prepared};
+use vtu2contour::filter::{
+    ContourOptions, Interpolant, Locators, Monitored, Solution, contour, prepared,
+};
 use vtu2contour::vtk::UnstructuredGrid;
 
 use super::arrays::{rows, vectors};
 use super::grid::GridParts;
 use super::job;
 use super::monitor::{self, MonitorChoice};
-use super::options::{DrawingOptions, SolutionOptions};
+use super::options::{self, DrawingOptions, SolutionOptions};
 use super::output::{self, Done};
 
 /// The interpolant of a grid, made once and contoured at any levels.
@@ -92,4 +94,23 @@ impl GridInterpolant {
     fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         output::information(py, &self.interpolant)
     }
+}
+
+/// The contours of a grid, and what was done: for once, so that little is computed where no
+/// level is.
+#[pyfunction]
+pub fn contour_grid<'py>(
+    py: Python<'py>,
+    grid: GridParts,
+    solution: SolutionOptions,
+    drawing: DrawingOptions,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+    let (grid, options) = (grid.grid()?, options::joined(solution, drawing)?);
+    let (data, done) = job::run(py, move || {
+        let contoured = contour(&grid, &options, &mut |_| {})?;
+        let (lines, surface) = (&contoured.lines, &contoured.surface);
+        let done = Done::of_report(contoured.report, Some(lines), Some(surface));
+        Ok((contoured.poly_data, done))
+    })?;
+    Ok((output::poly_data(py, data)?, output::report(py, &done)?))
 }

@@ -19,7 +19,7 @@ mod _core {
     #[pymodule_export]
     use super::error::{MissingArrayError, NothingToContourError};
     #[pymodule_export]
-    use super::grid_interpolant::GridInterpolant;
+    use super::grid_interpolant::{GridInterpolant, contour_grid};
 
     #[pymodule_export]
     use super::refinement::{curves, refine_arrays, refine_grid};

@@ -118,6 +118,28 @@ impl DrawingOptions {
     }
 }
 
+/// What is contoured and how, in one.
+///
+/// # Errors
+/// `ValueError` for a word that is none of those to choose from.
+pub fn joined(solution: SolutionOptions, drawing: DrawingOptions) -> PyResult<ContourOptions> {
+    let drawing = drawing.options()?;
+    Ok(ContourOptions {
+        levels: drawing.levels,
+        method: drawing.method,
+        spacing: drawing.spacing,
+        tolerance: drawing.tolerance,
+        points_per_side: drawing.points_per_side,
+        triangles: drawing.triangles,
+        size: drawing.size,
+        single: drawing.single,
+        segments: drawing.segments,
+        gradients: drawing.gradients,
+        normals: drawing.normals,
+        ..solution.options()?
+    })
+}
+
 /// How cells are selected, and by which number.
 ///
 /// # Errors

@@ -3,6 +3,8 @@
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use vtu2contour::contour::lines::ContourLines;
+use vtu2contour::contour::surface::ContourSurface;
 use vtu2contour::filter::{
     Contours, GradientOrigin, Interpolant, Interpolation, Output, Report, level_warning,
 };
@@ -141,17 +143,26 @@ pub struct Done {
 impl Done {
     /// What contouring an interpolant did.
     pub fn new(interpolant: &Interpolant, contours: &Contours) -> Self {
-        let report = interpolant.report(contours);
-        let told = &interpolant.interpolation.warnings;
-        let mut warnings = report.warnings.clone();
-        warnings.retain(|warning| !told.contains(warning));
-        let has_line = |place| {
-            contours.lines.as_ref().is_some_and(|all| all.lines.iter().any(|l| l.level == place))
-        };
+        let (lines, surface) = (contours.lines.as_ref(), contours.surface.as_ref());
+        let mut done = Self::of_report(interpolant.report(contours), lines, surface);
+        done.warnings.retain(|warning| !interpolant.interpolation.warnings.contains(warning));
+        done
+    }
+
+    /// What contouring a grid did.
+    pub fn of_report(
+        report: Report,
+        lines: Option<&ContourLines>,
+        surface: Option<&ContourSurface>,
+    ) -> Self {
+        let has_line =
+            |place| lines.is_some_and(|all| all.lines.iter().any(|line| line.level == place));
         let has_triangle = |place: usize| {
-            contours.surface.as_ref().is_some_and(|all| !all.level_triangles[place].is_empty())
+            let triangles = surface.and_then(|all| all.level_triangles.get(place));
+            triangles.is_some_and(|triangles| !triangles.is_empty())
         };
         let is_drawn = |place| has_line(place) || has_triangle(place);
+        let mut warnings = report.warnings.clone();
         warnings.extend(level_warning(&report.label, report.range, &report.levels, is_drawn));
         Self { report, warnings }
     }

@@ -45,6 +45,9 @@ class GridInterpolant(_Interpolant):
     def __new__(cls, grid: dict[str, Any], options: dict[str, Any]) -> GridInterpolant: ...
     def monitor(self, choice: dict[str, Any]) -> dict[str, Any]: ...
 
+def contour_grid(
+    grid: dict[str, Any], solution: dict[str, Any], drawing: dict[str, Any]
+) -> tuple[dict[str, Any], dict[str, Any]]: ...
 def refine_grid(
     grid: dict[str, Any],
     asked: dict[str, Any],

@@ -44,11 +44,7 @@ class MeshInterpolant:
         predictor: str = "quadratic",
         merge_points: float | None = None,
     ) -> None:
-        if not hasattr(mesh, "IsA"):
-            raise TypeError(
-                f"a mesh of pyvista or vtk is needed, not a {type(mesh).__name__}; "
-                "vtu2contour.Interpolant takes NumPy arrays"
-            )
+        _check(mesh)
         self._options = solution_options(
             scalars=scalars,
             component=component,
@@ -59,7 +55,6 @@ class MeshInterpolant:
             predictor=predictor,
             merge_points=merge_points,
         )
-        self._is_of_pyvista = _vtk.is_of_pyvista(mesh)
         #: for the data that travel along with a monitor
         self._mesh = mesh
         #: an empty mesh of the same blocks; nothing for a mesh that is no blocks
@@ -146,7 +141,7 @@ class MeshInterpolant:
             double=double,
             size=size or self._size,
         )
-        return self._as_given(self._contoured(options))
+        return _as_given(self._mesh, self._contoured(options))
 
     def monitor(
         self,
@@ -165,30 +160,22 @@ class MeshInterpolant:
             kind, second=second, samples=samples, seed=seed, select=select, name=name
         )
         if self._structure is None:
-            return self._as_given(_monitored(self._mesh, self._blocks[0], choice))
+            return _as_given(self._mesh, _monitored(self._mesh, self._blocks[0], choice))
         output = self._structure.NewInstance()
         output.ShallowCopy(self._mesh)
         for number, block, put in _blocks(output):
             if number in self._blocks:
                 put(_monitored(block, self._blocks[number], choice))
-        return self._as_given(output)
-
-    def _as_given(self, output: Any) -> Any:
-        """A mesh of vtk as one of pyvista, if that was given."""
-        if not self._is_of_pyvista:
-            return output
-        import pyvista
-
-        return pyvista.wrap(output)
+        return _as_given(self._mesh, output)
 
     def _contoured(self, options: dict[str, Any]) -> Any:
         if self._structure is None:
-            return _contoured(self._blocks[0], options)
+            return _poly_data(*self._blocks[0].contour(options))
         output = self._structure.NewInstance()
         output.CopyStructure(self._structure)
         for number, _, put in _blocks(output):
             if number in self._blocks:
-                put(_contoured(self._blocks[number], options))
+                put(_poly_data(*self._blocks[number].contour(options)))
         return output
 
     @property
@@ -306,30 +293,34 @@ def contour(
     >>> sphere.array_names
     ['u', 'grad_u', 'OriginalCellIds', 'Normals', 'OriginalCellIds']
     """
-    made = MeshInterpolant(
-        mesh,
-        scalars=scalars,
-        component=component,
-        gradient=gradient,
-        pde=pde,
-        parameters=parameters,
-        interpolant=interpolant,
-        predictor=predictor,
-        merge_points=merge_points,
-    )
-    return made.contour(
-        levels,
-        rng=rng,
-        method=method,
-        tolerance=tolerance,
-        spacing=spacing,
-        nside=nside,
-        triangles=triangles,
-        normals=normals,
-        gradients=gradients,
-        segments=segments,
-        double=double,
-    )
+    _check(mesh)
+    solution: dict[str, Any] = {
+        "scalars": scalars,
+        "component": component,
+        "gradient": gradient,
+        "pde": pde,
+        "parameters": parameters,
+        "interpolant": interpolant,
+        "predictor": predictor,
+        "merge_points": merge_points,
+    }
+    drawing: dict[str, Any] = {
+        "rng": rng,
+        "method": method,
+        "tolerance": tolerance,
+        "spacing": spacing,
+        "nside": nside,
+        "triangles": triangles,
+        "normals": normals,
+        "gradients": gradients,
+        "segments": segments,
+        "double": double,
+    }
+    if _vtk.is_composite(mesh):
+        # levels may lie inside a range that only all blocks tell
+        return MeshInterpolant(mesh, **solution).contour(levels, **drawing)
+    options = solution_options(**solution), drawing_options(levels, **drawing)
+    return _as_given(mesh, _poly_data(*_core.contour_grid(_vtk.parts_of(mesh), *options)))
 
 
 def info(mesh: Any, **options: Any) -> dict[str, Any]:
@@ -350,8 +341,24 @@ def _monitored(mesh: Any, core: Any, choice: dict[str, Any]) -> Any:
     return _vtk.with_cell_arrays(mesh, found["arrays"])
 
 
-def _contoured(core: Any, options: dict[str, Any]) -> Any:
-    parts, report = core.contour(options)
+def _check(mesh: Any) -> None:
+    if not hasattr(mesh, "IsA"):
+        raise TypeError(
+            f"a mesh of pyvista or vtk is needed, not a {type(mesh).__name__}; "
+            "vtu2contour.Interpolant takes NumPy arrays"
+        )
+
+
+def _as_given(given: Any, output: Any) -> Any:
+    """A mesh of vtk as one of pyvista, if that was given."""
+    if not _vtk.is_of_pyvista(given):
+        return output
+    import pyvista
+
+    return pyvista.wrap(output)
+
+
+def _poly_data(parts: dict[str, Any], report: dict[str, Any]) -> Any:
     tell(report["warnings"])
     return _vtk.poly_data(parts)
 

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -36,28 +38,41 @@ def cube(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 def main() -> None:
     small_points, small_cells = cube(2)
-    small = vc.Interpolant(small_points, small_cells, small_points[:, 0], 0 * small_points)
-    small.contour([0.3])  # threads and their stacks are there now
+    slope = np.zeros_like(small_points) + [1, 0, 0]
+    vc.contour_arrays(small_points, small_cells, small_points[:, 0], slope, [0.3])
+    # threads and their stacks are there now
     points, cells = cube(55)
     cells = cells.astype(sys.argv[1] if len(sys.argv) > 1 else np.int32)
     u = np.linalg.norm(points - 0.5, axis=1)
     grad = (points - 0.5) / np.maximum(u, 1e-9)[:, None]
     size = sum(a.nbytes for a in (points, cells, u, grad)) / 2**20
-    before = megabytes("VmRSS")
-    Path("/proc/self/clear_refs").write_text("5")  # the peak is counted from here
-    f = vc.Interpolant(points, cells, u, grad)
-    kept, peak_made = megabytes("VmRSS") - before, megabytes("VmHWM") - before
-    Path("/proc/self/clear_refs").write_text("5")
-    surface = f.contour([0.3])
-    peak = megabytes("VmHWM") - before
+    print(f"{len(cells)} tetrahedra ({cells.dtype}), input {size:.1f} MiB")
+
+    surface, peak, _ = measured(lambda: vc.contour_arrays(points, cells, u, grad, [0.3]))
     arrays = (surface.points, surface.values, surface.triangles, surface.cells)
     output = sum(a.nbytes for a in arrays) / 2**20
-    print(f"{len(cells)} tetrahedra ({cells.dtype}), {len(surface.triangles)} triangles")
-    print(f"input {size:.1f} MiB, output {output:.1f} MiB")
-    print(f"made: peak {peak_made:.1f} MiB above the input, kept {kept:.1f} MiB")
-    print(f"contoured: peak {peak:.1f} MiB above the input")
-    whole = size + max(peak, peak_made) - output
-    print(f"peak with the input, without the output: {whole / size:.2f} times the input")
+    print(f"output {output:.1f} MiB: {len(surface.triangles)} triangles")
+
+    def tell(what: str, peak: float, output: float) -> None:
+        whole = (size + peak - output) / size
+        print(
+            f"{what}: {peak:.1f} MiB above the input; with it, less the output, {whole:.2f} of it"
+        )
+
+    tell("contoured once, peak", peak, output)
+    f, peak, kept = measured(lambda: vc.Interpolant(points, cells, u, grad))
+    tell("interpolant, peak", peak, 0)
+    tell("interpolant, kept", kept, 0)
+    _, peak, _ = measured(lambda: f.contour([0.3]))
+    tell("contoured again, peak", kept + peak, output)
+
+
+def measured(job: Callable[[], Any]) -> tuple[Any, float, float]:
+    """What a job makes, and by how many megabytes memory grows: at most, and in the end."""
+    before = megabytes("VmRSS")
+    Path("/proc/self/clear_refs").write_text("5")  # the peak is counted from here
+    made = job()
+    return made, megabytes("VmHWM") - before, megabytes("VmRSS") - before
 
 
 if __name__ == "__main__":

@@ -132,6 +132,24 @@ def test_contours_for_once_are_those_of_a_kept_interpolant():
     assert [str(w.message) for w in once] == [str(w.message) for w in later]
 
 
+@pytest.mark.parametrize("pde", [None, "uxx + uyy + uzz = -3*u"])
+def test_arrays_contoured_once_are_those_of_a_kept_interpolant(pde):
+    grid = solid(n=14)
+    arrays = (grid.points, grid.cells_dict[10], grid["u"], grid["grad_u"])
+    f = vc.Interpolant(*arrays, pde=pde)
+    for levels in ([-0.99], [0.3], 3):
+        kept, once = (
+            f.contour(levels, nside=3),
+            vc.contour_arrays(*arrays, levels, pde=pde, nside=3),
+        )
+        assert len(once.triangles) > 0 and once.counts == kept.counts
+        assert np.array_equal(once.points, kept.points)
+        assert np.array_equal(once.triangles, kept.triangles)
+        assert np.array_equal(once.values, kept.values)
+    with pytest.raises(ValueError, match=r"u must have shape \(n,\)"):
+        vc.contour_arrays(grid.points, arrays[1], grid.points)
+
+
 @pytest.mark.parametrize("dtype", [np.int32, np.uint32, np.int64, np.uint64, np.int16])
 @pytest.mark.parametrize("real", [np.float64, np.float32])
 def test_types(dtype, real):

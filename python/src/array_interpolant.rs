@@ -10,15 +10,15 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vtu2contour::filter::{
-    ContourOptions, FilterError, GradientOrigin, Gradients, Interpolant, InterpolantKind,
-    Interpolation, KnownPde, Locators, Monitored, Solution,
+    ContourOptions, ContouredSolution, Contours, FilterError, GradientOrigin, Gradients,
+    Interpolant, InterpolantKind, Interpolation, KnownPde, Locators, Monitored, Solution,
 };
 use vtu2contour::mesh::{SimplexMesh, TetrahedronMesh, TriangleMesh, Vector};
 
 use super::arrays::{rows, slice, vectors};
 use super::job;
 use super::monitor::{self, MonitorChoice};
-use super::options::{DrawingOptions, SolutionOptions};
+use super::options::{self, DrawingOptions, SolutionOptions};
 use super::output::{self, Done};
 
 /// The interpolant of NumPy arrays, made once and contoured at any levels.
@@ -298,4 +298,32 @@ impl ArrayInterpolant {
         let interpolation = Cow::Borrowed(&self.interpolation);
         output::information(py, &Interpolant { solution, interpolation })
     }
+}
+
+/// The contours of arrays as an [`ArrayInterpolant`] takes them, and what was done: for once, so
+/// that little is computed where no level is.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // those of `ArrayInterpolant`, and how to draw
+pub fn contour_arrays<'py>(
+    py: Python<'py>,
+    points: Py<PyArray2<f64>>,
+    cells: Py<PyArray2<u32>>,
+    values: Py<PyArray1<f64>>,
+    gradients: Option<Py<PyArray2<f64>>>,
+    solution: SolutionOptions,
+    arrays: Vec<(String, Vec<f64>)>,
+    drawing: DrawingOptions,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+    let options = options::joined(solution, drawing)?;
+    let kept = Arrays { points, cells, values, gradients };
+    let borrowed = kept.borrow(py)?;
+    let slices = borrowed.slices()?;
+    let (output, done) = job::run(py, || {
+        let pde = KnownPde::of_arrays(&options, slices.points.len(), arrays)?.map(Arc::new);
+        let contoured = ContouredSolution::new(slices.solution(&options, pde)?, &options)?;
+        let Contours { lines, surface, .. } = &contoured.contours;
+        let done = Done::of_report(contoured.report(), lines.as_ref(), surface.as_ref());
+        Ok((contoured.output(options.bare_output()), done))
+    })?;
+    Ok((output::bare_contours(py, output)?, output::report(py, &done)?))
 }

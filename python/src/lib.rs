@@ -15,7 +15,7 @@ mod refinement;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use super::array_interpolant::ArrayInterpolant;
+    use super::array_interpolant::{ArrayInterpolant, contour_arrays};
     #[pymodule_export]
     use super::error::{MissingArrayError, NothingToContourError};
     #[pymodule_export]

@@ -5,11 +5,11 @@ that it solves. This module makes one cubic polynomial per triangle or tetrahedr
 the Differential Equation Interpolant, and draws the contour lines or iso-surfaces of that
 cubic: smooth, every point on its level, islands inside a cell included.
 
-``contour(mesh, levels)`` contours a mesh of pyvista or vtk; ``Interpolant(points, cells, u,
-grad)`` does the same with NumPy arrays, and is kept for any number of levels; ``info(mesh)``
-tells what would be done. ``monitor(mesh, kind)`` says where the mesh should be finer;
-``refine(mesh, by=...)`` and ``refine_arrays(points, cells, marks)`` make it so, ``refine`` with a
-solver between the steps.
+``contour(mesh, levels)`` contours a mesh of pyvista or vtk, and ``contour_arrays(points, cells,
+u, grad, levels)`` NumPy arrays; ``MeshInterpolant(mesh)`` and ``Interpolant(points, cells, u,
+grad)`` are kept for any number of levels; ``info(mesh)`` tells what would be done.
+``monitor(mesh, kind)`` says where the mesh should be finer; ``refine(mesh, by=...)`` and
+``refine_arrays(points, cells, marks)`` make it so, ``refine`` with a solver between the steps.
 
 >>> import numpy as np
 >>> import vtu2contour as vc
@@ -25,7 +25,7 @@ True
 from ._core import VERSION as __version__
 from ._core import MissingArrayError, NothingToContourError
 from .contours import Contours
-from .interpolant import Interpolant
+from .interpolant import Interpolant, contour_arrays
 from .mesh_contour import MeshInterpolant, contour, info
 from .mesh_monitor import monitor
 from .refinement import Refined, SolverError, refine, refine_arrays
@@ -40,6 +40,7 @@ __all__ = [
     "SolverError",
     "__version__",
     "contour",
+    "contour_arrays",
     "info",
     "monitor",
     "refine",

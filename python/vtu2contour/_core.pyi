@@ -45,6 +45,15 @@ class GridInterpolant(_Interpolant):
     def __new__(cls, grid: dict[str, Any], options: dict[str, Any]) -> GridInterpolant: ...
     def monitor(self, choice: dict[str, Any]) -> dict[str, Any]: ...
 
+def contour_arrays(
+    points: NDArray[np.float64],
+    cells: NDArray[np.uint32],
+    values: NDArray[np.float64],
+    gradients: NDArray[np.float64] | None,
+    solution: dict[str, Any],
+    arrays: list[tuple[str, NDArray[np.float64]]],
+    drawing: dict[str, Any],
+) -> tuple[dict[str, Any], dict[str, Any]]: ...
 def contour_grid(
     grid: dict[str, Any], solution: dict[str, Any], drawing: dict[str, Any]
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...

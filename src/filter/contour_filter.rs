@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
+use super::contoured_solution::ContouredSolution;
+use super::contours::Contours;
 use super::error::FilterError;
-use super::interpolant::Interpolant;
 use super::merge_points::merge_points;
 use super::options::ContourOptions;
 use super::report::Report;
@@ -45,7 +46,7 @@ pub struct Contoured {
 /// is told each stage as it begins.
 ///
 /// Whoever wants other levels of the same grid later does what is done here one by one, and
-/// keeps the [`Interpolant`] and the grid.
+/// keeps the [`Interpolant`](super::Interpolant) and the grid.
 ///
 /// # Errors
 /// See [`FilterError`]: an array that is not there or does not fit, a PDE that
@@ -58,22 +59,14 @@ pub fn contour(
     progress(Stage::Field);
     let grid = prepared(Cow::Borrowed(grid), options)?;
     let solution = Solution::of_grid(&grid, options)?;
-    // a wrong limit is better told before the work than after
-    options.resolution(options.size.unwrap_or_else(|| solution.diagonal()))?;
     progress(Stage::Interpolant);
-    let interpolant = Interpolant::at_levels(solution, options)?;
-    progress(Stage::Contour);
-    let contours = interpolant.contours(options)?;
+    let contoured = ContouredSolution::told(solution, options, || progress(Stage::Contour))?;
     progress(Stage::Data);
-    let poly_data = interpolant.output(&contours, options.output(&grid)).poly_data(&grid);
-    let report = interpolant.report(&contours);
-    Ok(Contoured {
-        poly_data,
-        lines: contours.lines.unwrap_or_default(),
-        surface: contours.surface.unwrap_or_default(),
-        triangles: interpolant.into_triangles(),
-        report,
-    })
+    let poly_data = contoured.output(options.output(&grid)).poly_data(&grid);
+    let report = contoured.report();
+    let (Contours { lines, surface, .. }, triangles) = contoured.into_parts();
+    let (lines, surface) = (lines.unwrap_or_default(), surface.unwrap_or_default());
+    Ok(Contoured { poly_data, lines, surface, triangles, report })
 }
 
 /// A grid as solutions are taken from it: Bézier cells are Lagrange cells, points are merged

@@ -2,10 +2,13 @@
 
 mod support;
 
+use std::collections::HashMap;
+
 use support::meshes::Random;
 use support::order::order;
 use support::problems_3d::{PROBLEMS, SEVENTH, SIXTH};
-use support::tetrahedra::{kuhn_grid, random_cube, shuffled};
+use support::surfaces::check_even;
+use support::tetrahedra::{kuhn_grid, random_cube, renumbered, shuffled};
 use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::surface::{ContourSurface, Fineness, contour_surface};
 use vtu2contour::field::Field;
@@ -127,6 +130,32 @@ fn a_steep_part_needs_a_third_of_the_triangles() {
         let [ours, uniform] = compared(&mesh, value, gradient, 0.53, tolerance);
         println!("steep, {tolerance:e}: {ours} against {uniform}");
         assert!(3 * ours <= uniform, "{ours} {uniform}");
+    }
+}
+
+/// A plane with a narrow hill, on a mesh of which no cell is like another: far from the hill two
+/// triangles a cell are enough, and these fit to those that are divided.
+#[test]
+fn what_is_divided_fits_to_what_is_not() {
+    let mesh = renumbered(&mut Random(3), &kuhn_grid(10), 0.02);
+    let hill = |p: &Vector| 0.2 * (-100.0 * (p - Vector::repeat(0.5)).norm_squared()).exp();
+    let value = |p: &Vector| p.x + 0.3 * p.y + hill(p);
+    let gradient =
+        |p: &Vector| Vector::new(1.0, 0.3, 0.0) - 200.0 * hill(p) * (p - Vector::repeat(0.5));
+    let values: Vec<f64> = mesh.points().iter().map(value).collect();
+    let gradients: Vec<Vector> = mesh.points().iter().map(gradient).collect();
+    let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
+    let ranges = CellRanges::of_tetrahedra(&f);
+    for tolerance in [1e-3, 3e-4, 1e-4] {
+        let surface = contour_surface(&f, &ranges, &[0.68], Fineness::Tolerance(tolerance));
+        check_even(&surface, &format!("{tolerance:e}"));
+        let mut of_cells: HashMap<u32, usize> = HashMap::new();
+        surface.cells.iter().for_each(|&cell| *of_cells.entry(cell).or_default() += 1);
+        let divided = of_cells.values().filter(|&&triangles| triangles > 2).count();
+        println!("{tolerance:e}: {divided} of {} cells are divided", of_cells.len());
+        assert!(divided > 20 && of_cells.len() > divided + 20);
+        let distance = distance_to_cubic(&surface, &f, tolerance / 4.0);
+        assert!(distance <= 1.25 * tolerance, "{distance:e}");
     }
 }
 

@@ -11,6 +11,7 @@ mod owner;
 mod patch;
 mod piece;
 mod plateaus;
+mod polygons;
 mod refinement;
 mod settle;
 mod simple;
@@ -80,11 +81,13 @@ pub fn contour_surface(
     };
     for &level in levels {
         let Sorted { mut simple, others, around } = match fineness {
-            Fineness::PointsPerSide(2) => {
-                let near = ranges.cells_near(level, |range| rounding::of_range(range, level));
-                Sorted::new(interpolant, level, &near)
+            Fineness::PointsPerSide(3..) => {
+                Sorted::without_simple(active_cells(interpolant, ranges, level))
             }
-            _ => Sorted::without_simple(active_cells(interpolant, ranges, level)),
+            _ => {
+                let near = ranges.cells_near(level, |range| rounding::of_range(range, level));
+                Sorted::new(interpolant, level, &near, tolerance)
+            }
         };
         let mut cells = cells_at(interpolant, ranges, level, &others, &around);
         surface.counts.active += simple.len() + cells.len();
@@ -98,9 +101,9 @@ pub fn contour_surface(
         let patches = tessellations(&cells, &settled.pieces, points);
         let mut flat_faces = Tessellation::default();
         flat_faces::add_flat_faces(&cells, points - 1, &mut flat_faces);
-        let level =
-            Level { level, simple: &simple, cells: &cells, pieces: &settled.pieces, tolerance };
-        add_level(interpolant, &mut surface, &level, &patches, &flat_faces);
+        let pieces = settled.pieces;
+        let level = Level { interpolant, level, simple: &simple, cells, pieces, tolerance };
+        add_level(&mut surface, level, &patches, &flat_faces);
     }
     surface
 }

@@ -16,10 +16,15 @@ use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::cell::Cell;
+use super::far_cells;
 use super::owner::Owner;
 use super::patch::{Patch, PatchPoint, Ray};
 use super::piece::Piece;
+use super::polygons::Polygons;
+use super::tessellation::Tessellation;
+use super::uniform::tessellate;
 use crate::bernstein::{Barycentric4, between};
+use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
 use crate::mesh::{TetrahedronFrame, Vector};
 
@@ -65,10 +70,16 @@ const MAX_ROUNDS: usize = 16;
 
 /// The surface of one level in the making.
 pub struct Refinement<'a> {
-    /// The active cells.
-    pub cells: &'a [Cell],
+    /// The interpolant.
+    pub interpolant: &'a dyn TetrahedronCubics,
+    /// The level.
+    pub level: f64,
+    /// The active cells but for simple ones.
+    pub cells: &'a mut Vec<Cell>,
     /// The pieces.
-    pub pieces: &'a [Piece],
+    pub pieces: &'a mut Vec<Piece>,
+    /// The simple cells, which are near enough, unless sides of theirs are divided.
+    pub polygons: &'a mut Polygons,
     /// How far a triangle may be from the level set.
     pub tolerance: f64,
     /// The triangles.
@@ -119,7 +130,9 @@ impl Refinement<'_> {
                 .inspect(|_| checkpoint())
                 .map(|(facet, new)| if *new { self.wish(facet) } else { Wish::Nothing })
                 .collect();
-            let middles = self.middles(&wishes);
+            let marked = self.marked(&wishes);
+            self.wake(&marked);
+            let middles = self.middles(&marked);
             self.coarse += wishes.iter().filter(|wish| matches!(wish, Wish::Refused)).count();
             if middles.is_empty() {
                 return;
@@ -176,12 +189,18 @@ impl Refinement<'_> {
             return false;
         }
         let line = cell.cubic.restrict(at, &[0, 1, 2, 3].map(|n| at[n] + step[n]));
+        let [.., end] = line.coefficients;
+        if end * value < 0.0 {
+            // nearly always: it crosses the level, wherever
+            return false;
+        }
         let is_one_signed = line.coefficients.iter().all(|c| c * value > 0.0);
         is_one_signed || line.roots().as_slice().is_empty()
     }
 
-    /// The middles of all sides that are to be divided, as new points.
-    fn middles(&mut self, wishes: &[Wish]) -> HashMap<SideName, u32> {
+    /// The sides that are to be divided, each once, with a triangle that has it and its place
+    /// there.
+    fn marked(&self, wishes: &[Wish]) -> Vec<(SideName, usize, usize)> {
         let mut marked: Vec<(SideName, usize, usize)> = Vec::new();
         for (place, wish) in wishes.iter().enumerate() {
             if let Wish::Sides(sides) = wish {
@@ -192,6 +211,45 @@ impl Refinement<'_> {
         }
         marked.sort_unstable();
         marked.dedup_by_key(|(name, ..)| *name);
+        marked
+    }
+
+    /// Adds the triangles of simple cells with sides that are to be divided.
+    fn wake(&mut self, marked: &[(SideName, usize, usize)]) {
+        let sides = marked.iter().map(|(name, ..)| name);
+        let off_level = sides.filter(|name| name.within == [NONE; 4]).map(|name| name.ends);
+        let woken = self.polygons.wake(off_level);
+        for cell in far_cells(self.interpolant, self.level, &woken) {
+            let place = self.cells.len() as u32;
+            let piece = Piece { is_certified: true, ..Piece::whole(&cell, place) };
+            let mut patch = Tessellation::default();
+            tessellate(&Patch { cell: &cell, piece: &piece }, 2, &mut patch);
+            let facets = patch.triangles.iter().map(|triangle| {
+                let points = triangle.map(|point| &patch.points[point as usize]);
+                Facet {
+                    corners: points.map(|point| self.crossing(point)),
+                    piece: Some(self.pieces.len() as u32),
+                    rays: triangle.map(|point| patch.rays[point as usize]),
+                    at: points.map(|point| point.at),
+                    cell: place,
+                }
+            });
+            self.facets.extend(facets.collect::<ArrayVec<Facet, 2>>());
+            self.cells.push(cell);
+            self.pieces.push(piece);
+        }
+    }
+
+    /// Where the corner of a simple cell's patch is among the surface's points.
+    fn crossing(&self, point: &PatchPoint) -> u32 {
+        match point.owner {
+            Owner::Edge { low, high } => self.polygons.crossing(low, high).unwrap_or(NONE),
+            _ => NONE,
+        }
+    }
+
+    /// The middles of sides that are to be divided, as new points.
+    fn middles(&mut self, marked: &[(SideName, usize, usize)]) -> HashMap<SideName, u32> {
         let found: Vec<PatchPoint> = marked
             .par_iter()
             .map(|&(_, place, side)| self.middle(&self.facets[place], side).1)

@@ -1,33 +1,33 @@
 //! Simple cells: their surface is one patch, and nothing else of them is near the level.
 //!
-//! On a fine mesh nearly all active cells are. With two points a side a patch is the polygon of
-//! the crossings of its cell's edges: it is drawn from these, without pieces and rays. Names and
-//! places of points are those that [`super::patch`] finds, so that both kinds of cells fit
-//! together.
+//! On a fine mesh nearly all active cells are. With two points a side, or where a tolerance asks for
+//! no more, a patch is the polygon of the crossings of its cell's edges: it is drawn from these,
+//! without pieces and rays ([`super::polygons`]). Names and places of points are those that
+//! [`super::patch`] finds, so that both kinds of cells fit together.
 
 use std::sync::LazyLock;
 
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
-use super::contour_surface::{ContourSurface, SurfacePoint};
+use super::contour_surface::SurfacePoint;
 use super::division::Marks;
 use super::handedness::{is_sliver, signed_volume};
 use super::tessellation::corner_edges;
-use super::uniform::cut;
 use crate::bernstein::{PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
 use crate::contour::crossings::crossings;
 use crate::contour::{holds, rounding};
 use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
+use crate::mesh::{TetrahedronFrame, Vector};
 
 /// A cell with one patch.
 #[derive(Clone, Copy, Debug)]
-struct SimpleCell {
-    number: u32,
+pub struct SimpleCell {
+    /// The cell's number.
+    pub number: u32,
     /// The numbers of its corners, ascending.
-    points: [u32; 4],
+    pub points: [u32; 4],
     /// The places of its corners in the mesh's own order.
     order: [u8; 4],
     /// The sides of the corners, ascending.
@@ -39,17 +39,6 @@ struct SimpleCell {
 /// The simple ones of the cells that are active at a level.
 #[derive(Debug, Default)]
 pub struct SimpleCells(Vec<SimpleCell>);
-
-/// An edge of the mesh: its points' numbers in one, the lower first.
-pub type EdgeKey = u64;
-
-/// The key of an edge between points, the lower first.
-pub fn edge_key(low: u32, high: u32) -> EdgeKey {
-    u64::from(low) << 32 | u64::from(high)
-}
-
-/// Where the crossing of each edge of simple cells is in the surface.
-pub type Crossings = FxHashMap<EdgeKey, u32>;
 
 /// The cells that are active at a level.
 pub struct Sorted {
@@ -67,11 +56,17 @@ impl Sorted {
         Self { simple: SimpleCells::default(), around: active.clone(), others: active }
     }
 
-    /// Those of some cells that are active.
-    pub fn new(interpolant: &dyn TetrahedronCubics, level: f64, cells: &[u32]) -> Self {
+    /// Those of some cells that are active. With a tolerance only such cells are simple in which no
+    /// triangle between crossings of edges is farther than that from the surface.
+    pub fn new(
+        interpolant: &dyn TetrahedronCubics,
+        level: f64,
+        cells: &[u32],
+        tolerance: Option<f64>,
+    ) -> Self {
         let judge = |&number: &u32| {
             checkpoint();
-            judge(interpolant, level, number)
+            judge(interpolant, level, number, tolerance)
         };
         let judged: Vec<Judged> = cells.par_iter().map(judge).collect();
         let numbers = |wanted: &dyn Fn(&Judged) -> bool| -> Vec<u32> {
@@ -127,42 +122,9 @@ impl SimpleCells {
         taken
     }
 
-    /// Adds their patches to a surface; returns where the crossings of their edges are.
-    pub fn draw(
-        &self,
-        interpolant: &dyn TetrahedronCubics,
-        level: f64,
-        surface: &mut ContourSurface,
-    ) -> Crossings {
-        let first = surface.points.len() as u32;
-        let mut crossings = Crossings::default();
-        crossings.reserve(self.0.len());
-        // of each crossing, a cell and the edge there
-        let mut edges: Vec<(u32, [u8; 2])> = Vec::with_capacity(self.0.len());
-        let mut polygons: Vec<[u32; 4]> = Vec::with_capacity(self.0.len());
-        for (place, cell) in self.0.iter().enumerate() {
-            let mut polygon = [NONE; 4];
-            for (corner, &[low, high]) in polygon.iter_mut().zip(&POLYGONS[cell.situation()]) {
-                let key = edge_key(cell.points[low as usize], cell.points[high as usize]);
-                *corner = *crossings.entry(key).or_insert_with(|| {
-                    edges.push((place as u32, [low, high]));
-                    first + edges.len() as u32 - 1
-                });
-            }
-            polygons.push(polygon);
-        }
-        let point = |&(place, edge): &(u32, [u8; 2])| {
-            checkpoint();
-            self.0[place as usize].crossing(interpolant, level, edge)
-        };
-        surface.points.par_extend(edges.par_iter().map(point));
-        for (cell, polygon) in self.0.iter().zip(polygons) {
-            let first = surface.triangles.len();
-            add_polygon(polygon, surface);
-            let triangles = surface.triangles.len() - first;
-            surface.cells.extend(std::iter::repeat_n(cell.number, triangles));
-        }
-        crossings
+    /// The cells.
+    pub fn cells(&self) -> &[SimpleCell] {
+        &self.0
     }
 }
 
@@ -174,7 +136,12 @@ enum Judged {
     Other,
 }
 
-fn judge(interpolant: &dyn TetrahedronCubics, level: f64, number: u32) -> Judged {
+fn judge(
+    interpolant: &dyn TetrahedronCubics,
+    level: f64,
+    number: u32,
+    tolerance: Option<f64>,
+) -> Judged {
     let mesh = interpolant.mesh();
     let corners = mesh.corners(number as usize);
     let cubic = interpolant.cubic(number as usize);
@@ -192,6 +159,9 @@ fn judge(interpolant: &dyn TetrahedronCubics, level: f64, number: u32) -> Judged
         && is_clear(&above_level.vertices(), rounding::of_range(bounds, level));
     let signs = above_level.vertices().map(Sign::of);
     if !is_clear || above_level.patch_certificate(signs) != PatchCertificate::Patch {
+        return Judged::Other;
+    }
+    if tolerance.is_some_and(|tolerance| !is_flat(&above_level, corners, tolerance)) {
         return Judged::Other;
     }
     let points = mesh.tetrahedra()[number as usize];
@@ -234,15 +204,42 @@ fn around(interpolant: &dyn TetrahedronCubics, cells: &[u32], active: &[u32]) ->
     active.par_iter().copied().filter(has_one).collect()
 }
 
+/// Whether triangles between zeros of a cubic on the edges of its tetrahedron are no farther from
+/// the cubic's level set than the tolerance, all of them all over: certain if it says so.
+///
+/// The cubic and the linear function of its vertex values differ by no more than their
+/// coefficients do, `d`. So the linear one is within `d` of zero at the triangle's corners and, being
+/// linear, between them. Some way along its slope it is beyond zero by its change less `d`; there the
+/// cubic differs from it by `d` times the third power of the sum of the absolute barycentric
+/// coordinates, which may be outside the cell. If the change is more than all that, the cubic
+/// changes its sign on the way.
+fn is_flat(cubic: &TetrahedronCubic, corners: [Vector; 4], tolerance: f64) -> bool {
+    let frame = TetrahedronFrame::new(corners);
+    let linear = TetrahedronCubic::linear(cubic.vertices());
+    let pairs = cubic.coefficients.iter().zip(linear.coefficients);
+    let difference = pairs.fold(0.0, |most: f64, (c, l)| most.max((c - l).abs()));
+    let slope = frame.gradient(&cubic.vertices());
+    let steps = frame.barycentric_direction(&slope);
+    let (slope, step) = (slope.norm(), steps.iter().map(|step| step.abs()).sum::<f64>());
+    // a shorter way may do where the whole leads far outside
+    [1.0, 0.5, 0.25].iter().any(|part| {
+        let way = tolerance * part;
+        // what the coordinates lose outside, others have too much
+        let outside = 1.0 + way * step / slope;
+        slope * way > difference * (1.0 + outside.powi(3))
+    })
+}
+
 impl SimpleCell {
-    /// Which of [`POLYGONS`] the patch is.
-    fn situation(&self) -> usize {
+    /// The edges around its patch, by their ends' places among its corners.
+    pub fn edges(&self) -> &'static [[u8; 2]] {
         let above = (0..4).filter(|&n| self.signs[n] == Sign::Above);
-        above.fold(usize::from(self.right_handed), |bits, n| bits | 2 << n)
+        let situation = above.fold(usize::from(self.right_handed), |bits, n| bits | 2 << n);
+        &POLYGONS[situation]
     }
 
     /// Where the surface crosses an edge.
-    fn crossing(
+    pub fn crossing(
         &self,
         interpolant: &dyn TetrahedronCubics,
         level: f64,
@@ -262,10 +259,8 @@ impl SimpleCell {
     }
 }
 
-/// The corner that a triangle has less than a quadrilateral.
-const NONE: u32 = u32::MAX;
-
-/// The edges around each patch, by the situation of its cell.
+/// The edges around each patch, by the situation of its cell: the bits of the corners above the
+/// level, and whether it is right-handed.
 static POLYGONS: LazyLock<[ArrayVec<[u8; 2], 4>; 32]> = LazyLock::new(|| {
     std::array::from_fn(|situation| {
         let side = |n: usize| if situation & 2 << n == 0 { Sign::Below } else { Sign::Above };
@@ -273,17 +268,6 @@ static POLYGONS: LazyLock<[ArrayVec<[u8; 2], 4>; 32]> = LazyLock::new(|| {
         edges.into_iter().map(|[n, m]| [n.min(m) as u8, n.max(m) as u8]).collect()
     })
 });
-
-/// Adds the triangles of a polygon.
-fn add_polygon(around: [u32; 4], surface: &mut ContourSurface) {
-    let [a, b, c, d] = around;
-    if d == NONE {
-        surface.triangles.push([a, b, c]);
-    } else {
-        let triangles = cut(around.map(|n| surface.points[n as usize].position));
-        surface.triangles.extend(triangles.map(|triangle| triangle.map(|n| around[n])));
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -8,22 +8,25 @@ use super::flat_faces::is_in_flat_face;
 use super::owner::Owner;
 use super::patch::PatchPoint;
 use super::piece::Piece;
+use super::polygons::Polygons;
 use super::refinement::{Facet, Refinement};
-use super::simple::{Crossings, SimpleCells, edge_key};
+use super::simple::SimpleCells;
 use super::tessellation::Tessellation;
 use crate::interpolant::TetrahedronCubics;
 
 /// A level's cells and pieces, and how far triangles may be from it, if that decides how
 /// fine they are.
 pub struct Level<'a> {
+    /// The interpolant.
+    pub interpolant: &'a dyn TetrahedronCubics,
     /// The level.
     pub level: f64,
     /// The simple cells, which have no pieces.
     pub simple: &'a SimpleCells,
     /// The other active cells.
-    pub cells: &'a [Cell],
+    pub cells: Vec<Cell>,
     /// The pieces.
-    pub pieces: &'a [Piece],
+    pub pieces: Vec<Piece>,
     /// The tolerance.
     pub tolerance: Option<f64>,
 }
@@ -31,32 +34,33 @@ pub struct Level<'a> {
 /// Adds the triangles of a level: those of patches, chunk by chunk, and those of faces that
 /// lie on the level.
 pub fn add_level(
-    interpolant: &dyn TetrahedronCubics,
     surface: &mut ContourSurface,
-    level: &Level,
+    level: Level,
     patches: &[Tessellation],
     flat_faces: &Tessellation,
 ) {
     let (first_point, first_triangle) = (surface.points.len(), surface.triangles.len());
-    let crossings = level.simple.draw(interpolant, level.level, surface);
+    let polygons = Polygons::new(level.simple, level.interpolant, level.level, surface);
     let first_of_builder = surface.points.len();
     let (places, on_level, facets) = (FxHashMap::default(), FxHashSet::default(), Vec::new());
     let mut builder =
-        Builder { surface, level, crossings, places, facets, on_level, collapsed: false };
+        Builder { surface, level, polygons, places, facets, on_level, collapsed: false };
     for chunk in patches {
         builder.add(chunk);
     }
     builder.add(flat_faces);
     builder.finish(first_of_builder);
+    let Builder { surface, polygons, .. } = builder;
+    polygons.add_triangles(surface);
     surface.level_points.push(first_point..surface.points.len());
     surface.level_triangles.push(first_triangle..surface.triangles.len());
 }
 
 struct Builder<'a> {
     surface: &'a mut ContourSurface,
-    level: &'a Level<'a>,
-    /// Where the crossings are of the edges of simple cells.
-    crossings: Crossings,
+    level: Level<'a>,
+    /// The simple cells' part.
+    polygons: Polygons,
     /// Where the points are that patches share.
     places: FxHashMap<Owner, u32>,
     /// The triangles.
@@ -93,16 +97,18 @@ impl Builder<'_> {
         let point = &chunk.points[n];
         let next = self.surface.points.len() as u32;
         let crossing = match point.owner {
-            Owner::Edge { low, high } => self.crossings.get(&edge_key(low, high)),
+            Owner::Edge { low, high } => self.polygons.crossing(low, high),
             _ => None,
         };
+        if let Some(crossing) = crossing {
+            return crossing;
+        }
         let place = match point.owner {
             Owner::Patch => next,
-            _ if crossing.is_some() => return crossing.copied().unwrap_or(next),
             owner => *self.places.entry(owner).or_insert(next),
         };
         if place == next {
-            add_point(self.surface, self.level, point, chunk.point_cells[n]);
+            add_point(self.surface, &self.level.cells, point, chunk.point_cells[n]);
             if point.owner.is_on_level() {
                 self.on_level.insert(place);
             }
@@ -112,11 +118,14 @@ impl Builder<'_> {
 
     /// Refines the triangles, if a tolerance asks for it, and adds them to the surface.
     /// `first_point` is the first that is not a simple cell's.
-    fn finish(mut self, first_point: usize) {
+    fn finish(&mut self, first_point: usize) {
         if let Some(tolerance) = self.level.tolerance {
             let mut refinement = Refinement {
-                cells: self.level.cells,
-                pieces: self.level.pieces,
+                interpolant: self.level.interpolant,
+                level: self.level.level,
+                cells: &mut self.level.cells,
+                pieces: &mut self.level.pieces,
+                polygons: &mut self.polygons,
                 tolerance,
                 facets: std::mem::take(&mut self.facets),
                 points: Vec::new(),
@@ -127,13 +136,13 @@ impl Builder<'_> {
             refinement.run();
             let Refinement { facets, points, coarse, .. } = refinement;
             for (point, cell) in &points {
-                add_point(self.surface, self.level, point, *cell);
+                add_point(self.surface, &self.level.cells, point, *cell);
             }
             self.facets = facets;
             self.surface.counts.coarse += coarse;
         }
         // not before: what is thin may have an inside that refinement finds
-        let cells = self.level.cells;
+        let cells = &self.level.cells;
         let is_drawn = |facet: &Facet| is_drawn_as_face(facet, &cells[facet.cell as usize]);
         self.facets.retain(|facet| !is_drawn(facet));
         if self.collapsed {
@@ -186,8 +195,8 @@ fn is_collapsed(facet: &Facet) -> bool {
     a == b || b == c || c == a
 }
 
-fn add_point(surface: &mut ContourSurface, level: &Level, point: &PatchPoint, cell: u32) {
-    let cell = &level.cells[cell as usize];
+fn add_point(surface: &mut ContourSurface, cells: &[Cell], point: &PatchPoint, cell: u32) {
+    let cell = &cells[cell as usize];
     surface.points.push(SurfacePoint {
         position: point.position,
         cell: cell.number,

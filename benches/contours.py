@@ -139,10 +139,7 @@ def in_memory() -> None:
     grid = grid_of(points, cells, u, grad)
     cells = cells.astype(np.int32)
 
-    def build() -> vc.Interpolant:
-        return vc.Interpolant(points, cells, u, grad)
-
-    f = build()
+    f = vc.Interpolant(points, cells, u, grad)
     one, levels = [float(np.mean(u))], ten(u)
     name = f"{len(cells)} tetrahedra"
     row(f"{name}, one level", 1.3, lambda: f.contour(one, nside=2), lambda: vtk_contour(grid, one))
@@ -161,7 +158,7 @@ def in_memory() -> None:
     row(
         f"{name}, the interpolant and one level",
         None,
-        lambda: build().contour(one, nside=2),
+        lambda: vc.contour_arrays(points, cells, u, grad, one, nside=2),
         lambda: vtk_contour(grid, one),
     )
 
@@ -194,7 +191,7 @@ def matplotlib_at_equal_error() -> None:
 
     points, cells = square(71)
     u, grad = waves(points)
-    levels = ten(u)
+    levels, corners = ten(u), cells.astype(np.int32)
     triangulation = Triangulation(points[:, 0], points[:, 1], cells)
     axes = Figure().subplots()
 
@@ -210,8 +207,7 @@ def matplotlib_at_equal_error() -> None:
         return [line for of_level in segments for line in of_level]
 
     def ours(tolerance: float) -> vc.Contours:
-        f = vc.Interpolant(points, cells.astype(np.int32), u, grad)
-        return f.contour(levels, tolerance=tolerance)
+        return vc.contour_arrays(points, corners, u, grad, levels, tolerance=tolerance)
 
     def error_of_ours(tolerance: float) -> float:
         made = ours(tolerance)
@@ -242,14 +238,13 @@ def vtk_at_equal_error() -> None:
     """
     points, cells = cube(20)
     u, grad = problem_6(points)
-    level = 0.5 * float(u.min() + u.max())
+    level, corners = 0.5 * float(u.min() + u.max()), cells.astype(np.int32)
 
     def error(triangles: np.ndarray) -> float:
         return float(np.abs(problem_6(triangles.mean(axis=1))[0] - level).mean())
 
     def ours() -> vc.Contours:
-        f = vc.Interpolant(points, cells.astype(np.int32), u, grad)
-        return f.contour([level], nside=4)
+        return vc.contour_arrays(points, corners, u, grad, [level], nside=4)
 
     made = ours()
     wanted = error(made.points[made.triangles])
@@ -257,8 +252,8 @@ def vtk_at_equal_error() -> None:
         finer = cube(n)
         grid = grid_of(*finer, *problem_6(finer[0]))
         found = vtk_contour(grid, [level])
-        corners = vtk_to_numpy(found.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-        theirs = error(vtk_to_numpy(found.GetPoints().GetData())[corners])
+        triangles = vtk_to_numpy(found.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        theirs = error(vtk_to_numpy(found.GetPoints().GetData())[triangles])
         # no finer than memory allows: what VTK would need then is more
         if theirs <= wanted or len(finer[1]) > 12 * ARGUMENTS.size:
             break

@@ -277,7 +277,7 @@ impl ArrayInterpolant {
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let points = vectors(&points, "points")?;
         let (values, gradients): (Vec<f64>, Vec<Vector>) = self.with(py, |interpolant| {
-            let locators = self.locators.get_or_init(|| Locators::new(&interpolant.solution));
+            let locators = job::kept(&self.locators, || Locators::new(&interpolant.solution));
             Ok(locators.evaluate(interpolant, points).into_iter().unzip())
         })?;
         Ok((PyArray1::from_vec(py, values), rows(py, gradients)?))

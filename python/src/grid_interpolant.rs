@@ -79,7 +79,7 @@ impl GridInterpolant {
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let points = vectors(&points, "points")?;
         let (values, gradients): (Vec<f64>, Vec<_>) = job::run(py, || {
-            let locators = self.locators.get_or_init(|| Locators::new(&self.interpolant.solution));
+            let locators = job::kept(&self.locators, || Locators::new(&self.interpolant.solution));
             Ok(locators.evaluate(&self.interpolant, points).into_iter().unzip())
         })?;
         Ok((PyArray1::from_vec(py, values), rows(py, gradients)?))

@@ -1,7 +1,7 @@
 //! Running the library beside the interpreter.
 
+use std::sync::OnceLock;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
@@ -22,11 +22,11 @@ pub fn run<T: Send>(
     computation: impl FnOnce() -> Result<T, FilterError> + Send,
 ) -> PyResult<T> {
     py.detach(|| {
-        thread::scope(|scope| {
+        // in a thread of the pool: from outside, each of many small parallel loops would wait for
+        // one to wake; this one answers to signals, as the interpreter asks of it
+        rayon::in_place_scope(|scope| {
             let (sender, receiver) = channel();
-            // the interpreter answers to signals in the thread that called, so the work is
-            // done in another
-            scope.spawn(move || {
+            scope.spawn(move |_| {
                 // nobody waits for the result of a computation that was interrupted
                 let _ = sender.send(interruptible(computation));
             });
@@ -53,4 +53,15 @@ pub fn run<T: Send>(
 /// Another thread's Ctrl-C ended this one's computation too.
 fn interrupted() -> PyErr {
     pyo3::exceptions::PyKeyboardInterrupt::new_err(())
+}
+
+/// What is computed by the first job that needs it, and kept.
+///
+/// Jobs that need it at the same time compute it each: if others waited for the first, a thread of
+/// the pool that helps the first could take up one of them, and wait for itself.
+pub fn kept<T>(slot: &OnceLock<T>, compute: impl FnOnce() -> T) -> &T {
+    slot.get().unwrap_or_else(|| {
+        let computed = compute();
+        slot.get_or_init(|| computed)
+    })
 }

@@ -45,6 +45,9 @@ pub struct Roots {
 /// place) and of the critical point at which the value is taken.
 const ZERO: f64 = 8.0 * f64::EPSILON;
 
+/// A third of the least slope of a steep cubic, as a part of its change from end to end.
+const STEEP: f64 = 1.0 / 64.0;
+
 impl SegmentCubic {
     /// All zeros on `[0, 1]`, ascending.
     ///
@@ -72,17 +75,35 @@ impl SegmentCubic {
             roots.everywhere = true;
             return roots;
         }
+        if self.is_steep() {
+            // nearly always: no critical point need be looked for
+            roots.push(Root { t: self.root_between(0.0, 1.0), kind: RootKind::Crossing });
+            roots.after_start = Sign::of(self.coefficients[0]);
+            return roots;
+        }
         let stations = Stations::of(self, ZERO * high.max(-low));
         stations.collect_roots(self, &mut roots);
         roots.after_start = stations.first_sign();
         roots
     }
 
+    /// Whether the cubic crosses zero, and nowhere has a slope near zero or of the other
+    /// sign, which its coefficients tell.
+    fn is_steep(&self) -> bool {
+        let [a, b, c, d] = self.coefficients;
+        let (direction, least) = ((d - a).signum(), STEEP * (d - a).abs());
+        let is_steep = |step: f64| step * direction >= least;
+        a * d < 0.0 && is_steep(b - a) && is_steep(c - b) && is_steep(d - c)
+    }
+
     /// The zero between `low` and `high`, where the signs differ and the cubic
-    /// is monotone: Newton's method, with bisection where a step leaves the bracket.
+    /// is monotone: Newton's method from that of the chord, with bisection where a step leaves
+    /// the bracket.
     fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
-        let rising = self.value(low) < 0.0;
-        let mut t = 0.5 * (low + high);
+        let ends = [self.value(low), self.value(high)];
+        let rising = ends[0] < 0.0;
+        let chord = low + (high - low) * (ends[0] / (ends[0] - ends[1]));
+        let mut t = if chord > low && chord < high { chord } else { 0.5 * (low + high) };
         // Newton doubles the digits at each step; 64 halvings end any bracket.
         for _ in 0..64 {
             let value = self.value(t);

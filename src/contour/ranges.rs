@@ -23,9 +23,15 @@ use crate::mesh::Subset;
 pub struct CellRanges {
     /// Least and greatest coefficient; an empty range for an unusable cell.
     ranges: Vec<[f32; 2]>,
+    /// What holds the ranges of each [`BLOCK`] of cells: a level that it does not hold passes over
+    /// them all. Neighbours mostly have numbers that are near each other, so most blocks are.
+    blocks: Vec<[f32; 2]>,
     unusable: usize,
     excluded: usize,
 }
+
+/// Cells that one range holds besides.
+const BLOCK: usize = 32;
 
 /// The range of a cell that holds no value.
 const EMPTY: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
@@ -54,7 +60,10 @@ impl CellRanges {
         };
         let ranges: Vec<[f32; 2]> = (0..cells).into_par_iter().map(range).collect();
         let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
-        Self { ranges, unusable, excluded: 0 }
+        let joined = |a: [f32; 2], b: &[f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let blocks = ranges.par_chunks(BLOCK).map(|block| block.iter().fold(EMPTY, joined));
+        let blocks = blocks.collect();
+        Self { ranges, blocks, unusable, excluded: 0 }
     }
 
     /// Takes for some triangles the range of their cubics, instead of bounds that were known
@@ -123,10 +132,15 @@ impl CellRanges {
     /// The same but for a few cells more, of which only ranges in single precision hold the
     /// level: quicker for those who look at each cell anyway.
     pub fn cells_near(&self, level: f64, tolerance: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<u32> {
-        let may_hold =
-            |range: [f32; 2]| range != EMPTY && holds(range.map(f64::from), level, &tolerance);
-        let numbered = self.ranges.par_iter().enumerate();
-        numbered.filter(|(_, range)| may_hold(**range)).map(|(cell, _)| cell as u32).collect()
+        let holds =
+            |range: &[f32; 2]| *range != EMPTY && holds(range.map(f64::from), level, &tolerance);
+        let blocks = self.blocks.par_iter().zip(self.ranges.par_chunks(BLOCK)).enumerate();
+        let near = blocks.filter(|(_, (block, _))| holds(block));
+        let cells = near.flat_map_iter(|(number, (_, ranges))| {
+            let numbered = (number * BLOCK..).zip(ranges).filter(|(_, range)| holds(range));
+            numbered.map(|(cell, _)| cell as u32)
+        });
+        cells.collect()
     }
 
     /// The cells whose range holds one of the levels (ascending), give or take the tolerance of
@@ -284,6 +298,22 @@ mod tests {
         assert_eq!(rounded_outwards([1e300, 1e300]), [f32::MAX, f32::INFINITY]);
         assert_eq!(finite_bounds(&[f64::NAN], (0.0, 1.0)), None);
         assert_eq!(finite_bounds(&[0.0, f64::INFINITY], (0.0, f64::INFINITY)), None);
+    }
+
+    #[test]
+    fn cells_of_all_blocks_are_found() {
+        // a slope over three blocks and a part of one, with cells that are left out
+        let bounds = |cell: usize| (cell % 7 > 0).then_some([cell as f64, cell as f64 + 2.0]);
+        let mut ranges = CellRanges::of_bounds(100, bounds);
+        ranges.exclude(|cell| cell % 10 == 3);
+        for level in [-1.0, 0.5, 31.5, 32.0, 64.25, 101.0, 200.0] {
+            let holds = |cell: &u32| {
+                let low = f64::from(*cell);
+                cell % 7 > 0 && cell % 10 != 3 && (low..=low + 2.0).contains(&level)
+            };
+            let expected: Vec<u32> = (0..100).filter(holds).collect();
+            assert_eq!(ranges.cells_near(level, |_| 0.0), expected, "{level}");
+        }
     }
 
     #[test]

@@ -77,7 +77,7 @@ impl SegmentCubic {
         }
         if self.is_steep() {
             // nearly always: no critical point need be looked for
-            roots.push(Root { t: self.root_between(0.0, 1.0), kind: RootKind::Crossing });
+            roots.push(Root { t: self.steep_root(), kind: RootKind::Crossing });
             roots.after_start = Sign::of(self.coefficients[0]);
             return roots;
         }
@@ -96,14 +96,30 @@ impl SegmentCubic {
         a * d < 0.0 && is_steep(b - a) && is_steep(c - b) && is_steep(d - c)
     }
 
-    /// The zero between `low` and `high`, where the signs differ and the cubic
-    /// is monotone: Newton's method from that of the chord, with bisection where a step leaves
-    /// the bracket.
-    fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
-        let ends = [self.value(low), self.value(high)];
-        let rising = ends[0] < 0.0;
-        let chord = low + (high - low) * (ends[0] / (ends[0] - ends[1]));
-        let mut t = if chord > low && chord < high { chord } else { 0.5 * (low + high) };
+    /// The zero of a steep cubic.
+    fn steep_root(&self) -> f64 {
+        let [first, .., last] = self.coefficients;
+        // a step s leaves an error of s² |p"/2p'|, where |p"| is no more than six times the change
+        // from end to end, and p' no less than three times its part STEEP
+        let is_last = |step: f64, t: f64| step * step / STEEP <= f64::EPSILON * t;
+        self.newton([0.0, 1.0], first / (first - last), is_last)
+    }
+
+    /// The zero between `low` and `high`, where the signs differ and the cubic is monotone.
+    fn root_between(&self, low: f64, high: f64) -> f64 {
+        let is_last = |step: f64, t: f64| step.abs() <= f64::EPSILON * t;
+        self.newton([low, high], 0.5 * (low + high), is_last)
+    }
+
+    /// Newton's method, with bisection where a step leaves the bracket; `is_last` tells whether a
+    /// step from a place is short enough to be the last.
+    fn newton(
+        &self,
+        [mut low, mut high]: [f64; 2],
+        mut t: f64,
+        is_last: impl Fn(f64, f64) -> bool,
+    ) -> f64 {
+        let rising = self.value(low) < 0.0;
         // Newton doubles the digits at each step; 64 halvings end any bracket.
         for _ in 0..64 {
             let value = self.value(t);
@@ -116,11 +132,11 @@ impl SegmentCubic {
                 high = t;
             }
             let newton = t - value / self.derivative(t);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= f64::EPSILON * t {
-                return next;
+            if is_last(newton - t, t) {
+                // by rounding it may be outside, or nowhere else
+                return newton.clamp(low, high);
             }
-            t = next;
+            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         }
         t
     }

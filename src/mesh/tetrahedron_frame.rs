@@ -23,7 +23,7 @@ impl TetrahedronFrame {
         let [a, b, c] = [1, 2, 3].map(|corner| corners[corner] - corners[0]);
         let normals = [b.cross(&c), c.cross(&a), a.cross(&b)];
         let sixfold = a.dot(&normals[0]);
-        let longest = a.norm().max(b.norm()).max(c.norm());
+        let longest = a.norm_squared().max(b.norm_squared()).max(c.norm_squared()).sqrt();
         if sixfold.abs() <= FLAT * longest.powi(3) || !sixfold.is_finite() {
             return Self { corners, barycentric_gradients: [Vector::zeros(); 4] };
         }

@@ -6,7 +6,8 @@ use pyo3::types::PyDict;
 use vtu2contour::contour::lines::ContourLines;
 use vtu2contour::contour::surface::ContourSurface;
 use vtu2contour::filter::{
-    Contours, GradientOrigin, Interpolant, Interpolation, Output, Report, level_warning,
+    Contours, GradientOrigin, Interpolant, Interpolation, Output, OutputPoints, Report,
+    level_warning,
 };
 use vtu2contour::mesh::Vector;
 use vtu2contour::vtk::{Attributes, CellArray, PolyData, UnstructuredGrid};
@@ -73,6 +74,7 @@ fn arrays<'py>(py: Python<'py>, data: &Attributes) -> PyResult<Arrays<'py>> {
 /// Contours without data of a grid, as a dictionary of arrays.
 pub fn bare_contours(py: Python, output: Output) -> PyResult<Bound<PyDict>> {
     let Output { options, points, lines, polys, parents, .. } = output;
+    let OutputPoints { positions, levels, gradients, .. } = points;
     let result = PyDict::new(py);
     let (offsets, connectivity) = cells(py, &lines);
     result.set_item("line_offsets", offsets)?;
@@ -83,7 +85,6 @@ pub fn bare_contours(py: Python, output: Output) -> PyResult<Bound<PyDict>> {
     let parents = parents.into_iter().map(i64::from);
     result.set_item("cells", PyArray1::from_iter(py, parents))?;
     if options.need_gradients() {
-        let gradients: Vec<Vector> = points.iter().map(|point| point.gradient).collect();
         if options.normals {
             let downhill = |g: &Vector| -g.try_normalize(0.0).unwrap_or_default();
             result.set_item("normals", rows(py, gradients.iter().map(downhill).collect())?)?;
@@ -92,10 +93,7 @@ pub fn bare_contours(py: Python, output: Output) -> PyResult<Bound<PyDict>> {
             result.set_item("gradients", rows(py, gradients)?)?;
         }
     }
-    let levels = points.iter().map(|point| point.level);
-    result.set_item("values", PyArray1::from_iter(py, levels))?;
-    let positions = points.iter().map(|point| point.position).collect();
-    drop(points);
+    result.set_item("values", PyArray1::from_vec(py, levels))?;
     result.set_item("points", rows(py, positions)?)?;
     Ok(result)
 }

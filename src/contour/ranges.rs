@@ -143,8 +143,7 @@ impl CellRanges {
         cells.collect()
     }
 
-    /// The cells whose range holds one of the levels (ascending), give or take the tolerance of
-    /// [`rounding::of_range`].
+    /// The cells whose range holds one of the levels (ascending), to rounding.
     pub fn cells_near_any(&self, levels: &[f64]) -> Subset {
         Subset::new(self.ranges.len(), |cell| {
             let range = self.ranges[cell];

@@ -71,7 +71,7 @@ impl LineOutput<'_> {
             stencil: Stencil { points: [a, b, c, c], weights: [s, t, u, 0.0] },
             level: self.lines.levels[level],
             parent: self.domain.parent(point.cell),
-            gradient: if with_gradient { self.gradient(point) } else { Vector::zeros() },
+            gradient: with_gradient.then(|| self.gradient(point)),
         }
     }
 

@@ -58,7 +58,7 @@ pub use level_warning::level_warning;
 pub use monitor::{MonitorOptions, Monitored, MonitoredGrid, monitor};
 pub use needed_arrays::needed_arrays;
 pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, InterpolantKind};
-pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint};
+pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint, OutputPoints};
 pub use picture::picture;
 pub use preview::{Preview, preview};
 pub use refined_grid::{

@@ -45,8 +45,52 @@ pub struct OutputPoint {
     pub level: f64,
     /// The cell of the grid that holds it.
     pub parent: u32,
-    /// The interpolant's gradient, if it is needed.
-    pub gradient: Vector,
+    /// The interpolant's gradient, if it is needed; then all points have one.
+    pub gradient: Option<Vector>,
+}
+
+/// The points of contours, property by property, as arrays of the output have them.
+#[derive(Clone, Debug, Default)]
+pub struct OutputPoints {
+    /// Where each is.
+    pub positions: Vec<Vector>,
+    /// The points of the grid around each.
+    pub stencils: Vec<Stencil>,
+    /// The level of each.
+    pub levels: Vec<f64>,
+    /// The cell of the grid that holds each.
+    pub parents: Vec<u32>,
+    /// The interpolant's gradient at each, if it is needed; else none.
+    pub gradients: Vec<Vector>,
+}
+
+impl OutputPoints {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Makes room for so many more.
+    pub fn reserve(&mut self, count: usize) {
+        self.positions.reserve(count);
+        self.stencils.reserve(count);
+        self.levels.reserve(count);
+        self.parents.reserve(count);
+    }
+
+    /// Adds a point.
+    pub fn push(&mut self, point: OutputPoint) {
+        self.positions.push(point.position);
+        self.stencils.push(point.stencil);
+        self.levels.push(point.level);
+        self.parents.push(point.parent);
+        self.gradients.extend(point.gradient);
+    }
 }
 
 /// Contours in the making.
@@ -58,7 +102,7 @@ pub struct Output {
     /// What to put out.
     pub options: OutputOptions,
     /// The points.
-    pub points: Vec<OutputPoint>,
+    pub points: OutputPoints,
     /// Lines.
     pub lines: CellArray,
     /// Triangles.
@@ -74,7 +118,7 @@ impl Output {
             label: solution.label.clone(),
             single_values: solution.single,
             options,
-            points: Vec::new(),
+            points: OutputPoints::default(),
             lines: CellArray::new(),
             polys: CellArray::new(),
             parents: Vec::new(),
@@ -97,7 +141,8 @@ impl Output {
     }
 
     fn coordinates(&self) -> DataArray {
-        let coordinates = self.points.iter().flat_map(|point| <[f64; 3]>::from(point.position));
+        let coordinates =
+            self.points.positions.iter().flat_map(|position| <[f64; 3]>::from(*position));
         if self.options.single {
             DataArray::new("Points", 3, coordinates.map(|x| x as f32).collect::<Vec<f32>>())
         } else {
@@ -106,36 +151,35 @@ impl Output {
     }
 
     fn add_point_data(&self, grid: &UnstructuredGrid, data: &mut PolyData) {
-        let stencils: Vec<Stencil> = self.points.iter().map(|point| point.stencil).collect();
-        data.point_data = interpolate(&grid.point_data, &stencils);
+        data.point_data = interpolate(&grid.point_data, &self.points.stencils);
         let scalars = self.exact_levels();
         let name = scalars.name.clone();
         data.point_data.push(scalars);
         data.point_data.set_active(AttributeKind::Scalars, &name);
-        data.point_data.push(cell_numbers(self.points.iter().map(|point| point.parent)));
+        data.point_data.push(cell_numbers(self.points.parents.iter().copied()));
         self.add_gradients(data);
     }
 
     /// The contoured array on the output: exactly the level. Integers become `f64`,
     /// for levels need not be whole.
     fn exact_levels(&self) -> DataArray {
-        let levels = self.points.iter().map(|point| point.level);
+        let levels = &self.points.levels;
         let values = if self.single_values {
-            Values::F32(levels.map(|level| level as f32).collect())
+            Values::F32(levels.iter().map(|&level| level as f32).collect())
         } else {
-            Values::F64(levels.collect())
+            Values::F64(levels.clone())
         };
         DataArray::new(&self.label, 1, values)
     }
 
     fn add_gradients(&self, data: &mut PolyData) {
-        let gradients = self.points.iter().map(|point| point.gradient);
+        let gradients = self.points.gradients.iter();
         if self.options.gradients {
             let components: Vec<f64> = gradients.clone().flat_map(|g| [g.x, g.y, g.z]).collect();
             data.point_data.push(DataArray::new("Gradients", 3, components));
         }
         if self.options.normals {
-            let downhill = |g: Vector| -g.try_normalize(0.0).unwrap_or_default();
+            let downhill = |g: &Vector| -g.try_normalize(0.0).unwrap_or_default();
             let normals = gradients.map(downhill).flat_map(|n| [n.x, n.y, n.z]);
             let normals: Vec<f32> = normals.map(|x| x as f32).collect();
             data.point_data.push(DataArray::new("Normals", 3, normals));

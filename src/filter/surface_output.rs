@@ -30,6 +30,7 @@ impl SurfaceOutput<'_> {
     pub fn add_to(&self, output: &mut Output) {
         let first = output.points.len() as i64;
         let gradients = output.options.need_gradients().then(|| self.gradients());
+        output.points.reserve(self.surface.points.len());
         for (&level, points) in self.surface.levels.iter().zip(&self.surface.level_points) {
             for number in points.clone() {
                 let point = &self.surface.points[number];
@@ -42,7 +43,7 @@ impl SurfaceOutput<'_> {
                     },
                     level,
                     parent: self.domain.parent(point.cell),
-                    gradient: gradients.as_ref().map_or(Vector::zeros(), |all| all[number]),
+                    gradient: gradients.as_ref().map(|all| all[number]),
                 });
             }
         }

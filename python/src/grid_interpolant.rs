@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vtu2contour::filter::{
-    ContourOptions, Interpolant, Locators, Monitored, Solution, contour, prepared,
+    ContourOptions, Interpolant, Locators, Monitored, Solution, contour_owned, prepared,
 };
 use vtu2contour::vtk::UnstructuredGrid;
 
@@ -107,7 +107,7 @@ pub fn contour_grid<'py>(
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
     let (grid, options) = (grid.grid()?, options::joined(solution, drawing)?);
     let (data, done) = job::run(py, move || {
-        let contoured = contour(&grid, &options, &mut |_| {})?;
+        let contoured = contour_owned(grid, &options, &mut |_| {})?;
         let (lines, surface) = (&contoured.lines, &contoured.surface);
         let done = Done::of_report(contoured.report, Some(lines), Some(surface));
         Ok((contoured.poly_data, done))

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use vtu2contour::contour::Levels;
 use vtu2contour::contour::surface::Fineness;
-use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour, preview};
+use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour_owned, preview};
 use vtu2contour::vtk::{AtomicFile, PvdEntry, UnstructuredGrid};
 
 use super::arguments::ContourArguments;
@@ -134,13 +134,13 @@ impl Job<'_> {
         let loaded = self.input.read(part, arrays)?;
         let name = self.input.name(part);
         loaded.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
-        let Some(contoured) = self.contour(place, part, &loaded.data)? else { return Ok(()) };
+        let entry = self.entry(part, &loaded.data);
+        let Some(contoured) = self.contour(place, part, loaded.data)? else { return Ok(()) };
         self.clock.next(Step::Write);
         self.stage(place, "writing");
         let report = &contoured.report;
         report.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
         self.messages.detail(&described(&contoured, name.as_deref()));
-        let entry = self.entry(part, &loaded.data);
         self.stats.add(&entry, &contoured);
         output.add(place, &entry, contoured)
     }
@@ -150,10 +150,11 @@ impl Job<'_> {
         &mut self,
         place: usize,
         part: &Part,
-        grid: &UnstructuredGrid,
+        grid: UnstructuredGrid,
     ) -> Result<Option<Contoured>> {
         let several = self.input.is_several();
-        if several && grid.types.is_empty() && !self.input.is_series() {
+        let is_empty = grid.types.is_empty();
+        if several && is_empty && !self.input.is_series() {
             return Ok(None); // a process may have had no cells
         }
         let (clock, messages) = (&mut self.clock, self.messages);
@@ -162,9 +163,9 @@ impl Job<'_> {
             clock.next(Step::Filter(stage));
             messages.stage(&format!("{prefix}{}", name_of(stage)));
         };
-        match contour(grid, &self.options, &mut progress) {
+        match contour_owned(grid, &self.options, &mut progress) {
             Ok(contoured) => Ok(Some(contoured)),
-            Err(error) if several && (error.is_nothing_to_contour() || grid.types.is_empty()) => {
+            Err(error) if several && (error.is_nothing_to_contour() || is_empty) => {
                 self.warnings.add(self.input.name(part).as_deref(), &error.to_string());
                 self.nothing.get_or_insert(self.input.explained(part, &error));
                 Ok(None)

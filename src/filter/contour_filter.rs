@@ -13,7 +13,7 @@ use crate::contour::lines::ContourLines;
 use crate::contour::surface::ContourSurface;
 use crate::mesh::TriangleMesh;
 use crate::simplices::lagrange_grid;
-use crate::vtk::{PolyData, UnstructuredGrid};
+use crate::vtk::{DataArray, PolyData, UnstructuredGrid};
 
 /// What a filter is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,17 +56,54 @@ pub fn contour(
     options: &ContourOptions,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Contoured, FilterError> {
+    contour_any(Cow::Borrowed(grid), options, progress)
+}
+
+/// The same for a grid that nobody needs any more: in less memory, as its cells are let go before
+/// the work.
+///
+/// # Errors
+/// As [`contour`].
+pub fn contour_owned(
+    grid: UnstructuredGrid,
+    options: &ContourOptions,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Contoured, FilterError> {
+    contour_any(Cow::Owned(grid), options, progress)
+}
+
+fn contour_any(
+    grid: Cow<UnstructuredGrid>,
+    options: &ContourOptions,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Contoured, FilterError> {
     progress(Stage::Field);
-    let grid = prepared(Cow::Borrowed(grid), options)?;
+    let mut grid = prepared(grid, options)?;
     let solution = Solution::of_grid(&grid, options)?;
+    let output_options = options.output(&grid);
+    if let Cow::Owned(grid) = &mut grid {
+        keep_data_only(grid);
+    }
     progress(Stage::Interpolant);
     let contoured = ContouredSolution::told(solution, options, || progress(Stage::Contour))?;
     progress(Stage::Data);
-    let poly_data = contoured.output(options.output(&grid)).poly_data(&grid);
+    let poly_data = contoured.output(output_options).poly_data(&grid);
     let report = contoured.report();
     let (Contours { lines, surface, .. }, triangles) = contoured.into_parts();
     let (lines, surface) = (lines.unwrap_or_default(), surface.unwrap_or_default());
     Ok(Contoured { poly_data, lines, surface, triangles, report })
+}
+
+/// Lets go what contours no longer need of a grid of which the solution was taken.
+fn keep_data_only(grid: &mut UnstructuredGrid) {
+    let points = DataArray::new("Points", 3, Vec::<f64>::new());
+    let data = UnstructuredGrid {
+        point_data: std::mem::take(&mut grid.point_data),
+        cell_data: std::mem::take(&mut grid.cell_data),
+        field_data: std::mem::take(&mut grid.field_data),
+        ..UnstructuredGrid::new(points)
+    };
+    *grid = data;
 }
 
 /// A grid as solutions are taken from it: Bézier cells are Lagrange cells, points are merged

@@ -44,7 +44,7 @@ pub use boundary_curves::boundary_curves;
 pub use cell_monitor::Monitor;
 pub use cells::{Cells, Part, Tetrahedra, Triangles};
 pub use chosen_array::{ChosenArray, Component};
-pub use contour_filter::{Contoured, Stage, contour, prepared};
+pub use contour_filter::{Contoured, Stage, contour, contour_owned, prepared};
 pub use contoured_solution::ContouredSolution;
 pub use contours::Contours;
 pub use error::FilterError;

@@ -120,7 +120,8 @@ fn warnings(interpolant: &Interpolant, asked: usize, failed: usize) -> Vec<Strin
         warnings.push(format!("left out: {}", solution.left_out));
     }
     if let (Some(_), Some(lower)) = (&solution.tetrahedra, &solution.triangles) {
-        let mut cells = lower.parents.clone().unwrap_or_default();
+        let simplices = 0..lower.count() as u32;
+        let mut cells: Vec<u32> = simplices.map(|simplex| lower.parent(simplex)).collect();
         cells.dedup();
         warnings.push(format!(
             "{} two-dimensional cells are not judged: the monitor is that of the solids",

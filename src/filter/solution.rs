@@ -169,12 +169,15 @@ impl<const CORNERS: usize> Domain<'static, CORNERS> {
         options: &ContourOptions,
     ) -> Result<Option<Self>, FilterError> {
         let Some(Part { mesh, parents }) = part else { return Ok(None) };
+        let ghosts = ghosts(grid, &parents);
+        // nothing to keep where each simplex is the cell of its number
+        let is_cell = |(simplex, &parent): (usize, &u32)| simplex == parent as usize;
+        let parents = Some(parents).filter(|all| !all.iter().enumerate().all(is_cell));
         let gradients = match options.interpolant {
             InterpolantKind::Linear => Gradients::none(),
             _ => Gradients::new(grid, &mesh, chosen, values, &options.gradient)?,
         };
-        let ghosts = ghosts(grid, &parents);
-        Ok(Some(Self { mesh, parents: Some(parents), ghosts, gradients }))
+        Ok(Some(Self { mesh, parents, ghosts, gradients }))
     }
 }
 

@@ -122,6 +122,7 @@ pub(super) fn read_lists(
         let (dest, after) = rest.split_at_mut(total);
         let decoded = decode_values(part, dest, source.bound, shift);
         decoded.map_err(|e| source.error(names.connectivity, e))?;
+        source.file.release();
         rest = after;
         shift += source.bound;
     }
@@ -155,6 +156,7 @@ fn read_offsets(
             None => Ok(0),
         };
         totals.push(total.map_err(|e| source.error(name, e))?);
+        source.file.release();
         start += count;
     }
     Ok((offsets, totals))

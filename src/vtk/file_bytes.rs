@@ -32,6 +32,14 @@ impl FileBytes {
         Err(VtkError::Read { path: path.to_owned(), source: refused })
     }
 
+    /// Lets go the memory that holds what was read of a mapped file; who reads on has it again.
+    pub(super) fn release(&self) {
+        #[cfg(unix)]
+        if let Self::Mapped(map) = self {
+            release(map);
+        }
+    }
+
     fn open_any(path: &Path) -> io::Result<Self> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
@@ -57,6 +65,19 @@ fn map(file: &File) -> io::Result<Mmap> {
     // SAFETY: the map is read only and private to this process; the bytes are checked as
     // any data from outside are, and never used as anything but bytes.
     unsafe { Mmap::map(file) }
+}
+
+#[cfg(unix)]
+#[allow(
+    unsafe_code,
+    reason = "what was read stays in memory beside the arrays made of it: it was a third of all \
+              that a contour of ten million tetrahedra needed"
+)]
+fn release(map: &Mmap) {
+    // SAFETY: the pages of a map of a file that nobody wrote to come back from the file.
+    let released = unsafe { map.unchecked_advise(memmap2::UncheckedAdvice::DontNeed) };
+    // advice that is not taken costs memory, and nothing else
+    drop(released);
 }
 
 impl Deref for FileBytes {

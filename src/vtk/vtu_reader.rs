@@ -100,6 +100,7 @@ pub(super) fn read_grids(
     let warnings = reading.warnings.clone();
     let decoded = reading.decode()?;
     renumber_old(pieces, &types, &mut cells, &decoded.cell_data);
+    pieces.list.iter().for_each(|piece| piece.file.release());
     Ok(Loaded {
         data: UnstructuredGrid {
             points: decoded.points,

@@ -97,6 +97,11 @@ impl XmlFile {
         &self.path
     }
 
+    /// Lets go the memory that holds what was read.
+    pub(super) fn release(&self) {
+        self.bytes.release();
+    }
+
     /// Bytes of the file.
     pub(super) fn len(&self) -> usize {
         self.bytes.len()

@@ -3,7 +3,6 @@
 //! They share their sides with the triangles of other cells. Where a tolerance divides such a side,
 //! the simple cell there has to be divided too: it is woken, and becomes one of the others.
 
-use arrayvec::ArrayVec;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -23,8 +22,9 @@ pub struct Polygons {
     corners: Vec<[u32; 4]>,
     /// Where the crossing of each edge is among the surface's points.
     crossings: FxHashMap<EdgeKey, u32>,
-    /// The polygons at each side, by its ends, the lesser first; empty until one is woken.
-    at_sides: FxHashMap<[u32; 2], ArrayVec<u32, 2>>,
+    /// Sides, by their ends, the lesser first, and the polygons that have them, sorted; empty until
+    /// one is woken.
+    at_sides: Vec<([u32; 2], u32)>,
     /// Which were woken.
     is_awake: Vec<bool>,
 }
@@ -73,7 +73,7 @@ impl Polygons {
         surface.points.par_extend(edges.par_iter().map(point));
         let (cells, is_awake) =
             (cells.iter().map(|cell| cell.number).collect(), vec![false; cells.len()]);
-        Self { cells, corners, crossings, at_sides: FxHashMap::default(), is_awake }
+        Self { cells, corners, crossings, at_sides: Vec::new(), is_awake }
     }
 
     /// Where the crossing of an edge is among the surface's points, if a simple cell has it.
@@ -89,9 +89,13 @@ impl Polygons {
             self.index_sides();
         }
         let mut woken = Vec::new();
-        for &place in sides.filter_map(|side| self.at_sides.get(&side)).flatten() {
-            if !std::mem::replace(&mut self.is_awake[place as usize], true) {
-                woken.push(self.cells[place as usize]);
+        for side in sides {
+            let first = self.at_sides.partition_point(|(other, _)| *other < side);
+            let here = self.at_sides[first..].iter().take_while(|(other, _)| *other == side);
+            for &(_, place) in here {
+                if !std::mem::replace(&mut self.is_awake[place as usize], true) {
+                    woken.push(self.cells[place as usize]);
+                }
             }
         }
         woken
@@ -103,10 +107,10 @@ impl Polygons {
             for n in 0..count {
                 let ends = [corners[n], corners[(n + 1) % count]];
                 let side = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                // two cells at most have a side; a third would be drawn twice as it is
-                let _ = self.at_sides.entry(side).or_default().try_push(place as u32);
+                self.at_sides.push((side, place as u32));
             }
         }
+        self.at_sides.par_sort_unstable();
     }
 
     /// Adds the triangles of those that were not woken to the surface.

@@ -4,6 +4,7 @@ mod support;
 
 use std::borrow::Cow;
 
+use support::mixed_grid::mixed_grid;
 use support::tetrahedra::kuhn_grid;
 use vtu2contour::contour::Levels;
 use vtu2contour::contour::surface::ContourSurface;
@@ -11,7 +12,6 @@ use vtu2contour::filter::{
     ContourOptions, FilterError, GradientSource, Gradients, Interpolant, Solution, contour,
 };
 use vtu2contour::mesh::{TetrahedronMesh, TriangleMesh, Vector};
-use vtu2contour::vtk::{DataArray, UnstructuredGrid};
 
 /// A smooth function that is no cubic, and its gradient.
 fn wave(p: &Vector) -> (f64, Vector) {
@@ -28,28 +28,9 @@ fn options(level: f64) -> ContourOptions {
     }
 }
 
-/// Tetrahedra and the faces of one side of the cube, which are triangles.
-fn mixed_grid(mesh: &TetrahedronMesh) -> UnstructuredGrid {
-    let flat =
-        |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
-    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, flat(mesh.points())));
-    let is_below = |point: &&u32| mesh.points()[**point as usize].z == 0.0;
-    for corners in mesh.tetrahedra() {
-        grid.push_cell(10, &corners.map(i64::from));
-        let bottom: Vec<i64> = corners.iter().filter(is_below).map(|&p| i64::from(p)).collect();
-        if bottom.len() == 3 {
-            grid.push_cell(5, &bottom);
-        }
-    }
-    let (values, gradients): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(wave).unzip();
-    grid.point_data.push(DataArray::new("u", 1, values));
-    grid.point_data.push(DataArray::new("g", 3, flat(&gradients)));
-    grid
-}
-
 #[test]
 fn every_level_is_as_that_of_a_new_one() {
-    let grid = mixed_grid(&kuhn_grid(5));
+    let grid = mixed_grid(&kuhn_grid(5), wave, |_| false);
     let solution = Solution::of_grid(&grid, &options(0.0)).unwrap();
     let kept = Interpolant::new(solution, &options(0.0)).unwrap();
     for level in [-0.5, 0.25, 0.9] {
@@ -64,7 +45,7 @@ fn every_level_is_as_that_of_a_new_one() {
 #[test]
 fn views_of_arrays_are_contoured_as_the_grid_of_them() {
     let mesh = kuhn_grid(5);
-    let grid = mixed_grid(&mesh);
+    let grid = mixed_grid(&mesh, wave, |_| false);
     let (values, vectors): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(wave).unzip();
     let view = TetrahedronMesh::view(mesh.points(), mesh.tetrahedra()).unwrap();
     let gradients = Gradients::given(&view, &values, Cow::Borrowed(&vectors), "g", "u");

@@ -5,6 +5,7 @@ mod support;
 
 use proptest::prelude::*;
 use support::meshes::{Random, random_square};
+use support::mixed_grid::mixed_grid;
 use support::tetrahedra::{kuhn_grid, random_cube};
 use vtu2contour::contour::Levels;
 use vtu2contour::field::Field;
@@ -14,8 +15,8 @@ use vtu2contour::filter::{
 use vtu2contour::interpolant::{
     Pci, TetrahedronCubics, TriangleCubics, Tricubic, reach_in_tetrahedron, reach_on_triangle,
 };
-use vtu2contour::mesh::{SimplexMesh, Subset, TetrahedronMesh, Vector};
-use vtu2contour::vtk::{DataArray, UnstructuredGrid};
+use vtu2contour::mesh::{SimplexMesh, Subset, Vector};
+use vtu2contour::vtk::UnstructuredGrid;
 
 /// A random number below a count.
 fn below(random: &mut Random, count: usize) -> usize {
@@ -121,34 +122,6 @@ proptest! {
             prop_assert!(within(reach, &tricubic.cubic(tetrahedron).coefficients));
         }
     }
-}
-
-/// Tetrahedra and, below them, triangles, some of which are another process's.
-fn mixed_grid(
-    mesh: &TetrahedronMesh,
-    solution: impl Fn(&Vector) -> (f64, Vector),
-    is_ghost: impl Fn(&Vector) -> bool,
-) -> UnstructuredGrid {
-    let flat =
-        |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
-    let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, flat(mesh.points())));
-    let is_below = |point: &&u32| mesh.points()[**point as usize].z == 0.0;
-    let mut ghosts: Vec<u8> = Vec::new();
-    for corners in mesh.tetrahedra() {
-        let ghost = u8::from(is_ghost(&mesh.points()[corners[0] as usize]));
-        grid.push_cell(10, &corners.map(i64::from));
-        ghosts.push(ghost);
-        let bottom: Vec<i64> = corners.iter().filter(is_below).map(|&p| i64::from(p)).collect();
-        if bottom.len() == 3 {
-            grid.push_cell(5, &bottom);
-            ghosts.push(ghost);
-        }
-    }
-    let (values, gradients): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(solution).unzip();
-    grid.point_data.push(DataArray::new("u", 1, values));
-    grid.point_data.push(DataArray::new("g", 3, flat(&gradients)));
-    grid.cell_data.push(DataArray::new("vtkGhostType", 1, ghosts));
-    grid
 }
 
 /// What is drawn and what is reported are those of the interpolant that is computed everywhere.

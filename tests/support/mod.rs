@@ -9,6 +9,7 @@ pub mod delaunay_3d;
 pub mod distance;
 pub mod domains;
 pub mod meshes;
+pub mod mixed_grid;
 pub mod order;
 pub mod p1;
 pub mod polynomial;

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::contour_surface::ContourSurface;
+use super::owner::Owner;
 use super::simple::SimpleCells;
 use super::uniform::cut;
 use crate::interpolant::TetrahedronCubics;
@@ -76,9 +77,13 @@ impl Polygons {
         Self { cells, corners, crossings, at_sides: Vec::new(), is_awake }
     }
 
-    /// Where the crossing of an edge is among the surface's points, if a simple cell has it.
-    pub fn crossing(&self, low: u32, high: u32) -> Option<u32> {
-        self.crossings.get(&edge_key(low, high)).copied()
+    /// Where a point is among the surface's points, if it is the crossing of an edge that a simple
+    /// cell has.
+    pub fn crossing(&self, point: &Owner) -> Option<u32> {
+        match *point {
+            Owner::Edge { low, high } => self.crossings.get(&edge_key(low, high)).copied(),
+            _ => None,
+        }
     }
 
     /// Wakes the cells that have one of some sides, given by their ends, the lesser first;
@@ -115,9 +120,8 @@ impl Polygons {
 
     /// Adds the triangles of those that were not woken to the surface.
     pub fn add_triangles(&self, surface: &mut ContourSurface) {
-        let asleep = self.is_awake.iter().map(|is_awake| !is_awake);
-        let polygons = self.corners.iter().zip(&self.cells).zip(asleep);
-        for ((corners, cell), _) in polygons.filter(|(_, is_asleep)| *is_asleep) {
+        let polygons = self.corners.iter().zip(&self.cells).zip(&self.is_awake);
+        for ((corners, cell), _) in polygons.filter(|(_, is_awake)| !**is_awake) {
             let first = surface.triangles.len();
             add_polygon(*corners, surface);
             let triangles = surface.triangles.len() - first;

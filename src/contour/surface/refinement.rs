@@ -227,7 +227,8 @@ impl Refinement<'_> {
             let facets = patch.triangles.iter().map(|triangle| {
                 let points = triangle.map(|point| &patch.points[point as usize]);
                 Facet {
-                    corners: points.map(|point| self.crossing(point)),
+                    corners: points
+                        .map(|point| self.polygons.crossing(&point.owner).unwrap_or(NONE)),
                     piece: Some(self.pieces.len() as u32),
                     rays: triangle.map(|point| patch.rays[point as usize]),
                     at: points.map(|point| point.at),
@@ -237,14 +238,6 @@ impl Refinement<'_> {
             self.facets.extend(facets.collect::<ArrayVec<Facet, 2>>());
             self.cells.push(cell);
             self.pieces.push(piece);
-        }
-    }
-
-    /// Where the corner of a simple cell's patch is among the surface's points.
-    fn crossing(&self, point: &PatchPoint) -> u32 {
-        match point.owner {
-            Owner::Edge { low, high } => self.polygons.crossing(low, high).unwrap_or(NONE),
-            _ => NONE,
         }
     }
 

@@ -96,11 +96,7 @@ impl Builder<'_> {
     fn place(&mut self, chunk: &Tessellation, n: usize) -> u32 {
         let point = &chunk.points[n];
         let next = self.surface.points.len() as u32;
-        let crossing = match point.owner {
-            Owner::Edge { low, high } => self.polygons.crossing(low, high),
-            _ => None,
-        };
-        if let Some(crossing) = crossing {
+        if let Some(crossing) = self.polygons.crossing(&point.owner) {
             return crossing;
         }
         let place = match point.owner {

@@ -26,11 +26,11 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--size", type=int, default=1_000_000, help="cells of the large meshes")
     parser.add_argument("--only", default=",".join(CASES), help="cases, of " + ", ".join(CASES))
-    parser.add_argument("--program", type=Path, help="the command vtu2contour, for the case files")
+    parser.add_argument("--program", type=Path, help="the command vtu2contour, for files")
     return parser.parse_args()
 
 
-CASES = ("solids", "flat", "matplotlib", "equal", "files", "paraview")
+CASES = ("solids", "flat", "matplotlib", "equal", "files", "pieces", "paraview")
 
 
 ARGUMENTS = arguments()
@@ -318,20 +318,60 @@ def file_to_file() -> None:
         program = [str(ARGUMENTS.program), source, "-o", mine, "-a", "u", "-g", "grad_u"]
         drawing = ["-v", str(level), "--nside", "2", "--quiet", "--threads"]
         ours = [OUR_PROGRAM, *program, *drawing, str(ARGUMENTS.threads)]
-        both = [ours, [VTK_PROGRAM, source, theirs, str(level)]]
-        found: list[list[list[float]]] = [[], []]
-        for _ in range(ARGUMENTS.rounds):
-            for arguments, results in zip(both, found, strict=True):
-                run = subprocess.run(
-                    [sys.executable, "-c", *arguments], capture_output=True, text=True, check=True
-                )
-                results.append(json.loads(run.stdout))
-        times, peaks = zip(
-            *(map(statistics.median, zip(*of, strict=True)) for of in found), strict=True
-        )
+        times, peaks = processes([ours, [VTK_PROGRAM, source, theirs, str(level)]])
     name = f"{len(cells)} tetrahedra, file to file"
     table_row(f"{name}, one level", 1.0, *(1e3 * seconds for seconds in times))
     table_row(f"{name}, peak memory in MiB", 1.0, *peaks)
+
+
+def processes(both: list[list[str]]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Median seconds, and MiB at most, of two programs of Python; a round runs each once."""
+    found: list[list[list[float]]] = [[], []]
+    for _ in range(ARGUMENTS.rounds):
+        for program, results in zip(both, found, strict=True):
+            run = subprocess.run(
+                [sys.executable, "-c", *program], capture_output=True, text=True, check=True
+            )
+            results.append(json.loads(run.stdout))
+    medians = (map(statistics.median, zip(*of, strict=True)) for of in found)
+    times, peaks = zip(*medians, strict=True)
+    return times, peaks
+
+
+def pieces_one_at_a_time() -> None:
+    """Eight cubes beside each other as pieces of a .pvtu: taken one at a time, beside (in the place
+    of VTK) the same command that joins them.
+    """
+    if ARGUMENTS.program is None:
+        return
+    count = 8
+    points, cells = cube(round((ARGUMENTS.size / 6 / count) ** (1 / 3)))
+    with tempfile.TemporaryDirectory() as folder:
+        for n in range(count):
+            moved = points + [n, 0.0, 0.0]
+            write_raw(grid_of(moved, cells, *waves(moved)), str(Path(folder) / f"{n}.vtu"))
+        arrays = '<PDataArray type="Float64" Name="u"/>'
+        arrays += '<PDataArray type="Float64" Name="grad_u" NumberOfComponents="3"/>'
+        place = '<PDataArray type="Float64" Name="Points" NumberOfComponents="3"/>'
+        listed = "".join(f'<Piece Source="{n}.vtu"/>' for n in range(count))
+        (Path(folder) / "in.pvtu").write_text(
+            '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid>'
+            f"<PPointData>{arrays}</PPointData><PPoints>{place}</PPoints>{listed}"
+            "</PUnstructuredGrid></VTKFile>"
+        )
+        command = [
+            OUR_PROGRAM,
+            str(ARGUMENTS.program),
+            f"{folder}/in.pvtu",
+            "-o",
+            f"{folder}/a.vtp",
+        ]
+        command += ["-a", "u", "-g", "grad_u", "-v", "0.5", "--nside", "2", "--quiet"]
+        command += ["--threads", str(ARGUMENTS.threads)]
+        times, peaks = processes([[*command, "--stream"], command])
+    name = f"{count * len(cells)} tetrahedra in {count} pieces, one at a time and joined"
+    table_row(name, None, *(1e3 * seconds for seconds in times))
+    table_row(f"{name}, peak memory in MiB", None, *peaks)
 
 
 def write_raw(grid, path: str) -> None:
@@ -394,6 +434,7 @@ def main() -> None:
         matplotlib_at_equal_error,
         vtk_at_equal_error,
         file_to_file,
+        pieces_one_at_a_time,
         in_paraview,
     )
     for case, job in zip(CASES, jobs, strict=True):

@@ -1,6 +1,7 @@
 """What the command line writes, opened by VTK, PyVista and meshio: the same values by all."""
 
 import subprocess
+import sys
 
 import meshio
 import numpy as np
@@ -90,6 +91,11 @@ def pieces_of(folder, count):
     names = [f"part{index}.vtu" for index in range(count)]
     for name, low, high in zip(names, limits, limits[1:], strict=False):
         grid.extract_cells((x >= low) & (x < high)).save(folder / name)
+    return list_of(folder, names)
+
+
+def list_of(folder, names):
+    """The list of pieces."""
     sources = "".join(f'<Piece Source="{name}"/>' for name in names)
     path = folder / "in.pvtu"
     path.write_text(
@@ -116,6 +122,43 @@ def test_vtk_joins_our_pieces(contour, encoding, tmp_path):
     assert len(joined["offsets"]) == len(listed["offsets"])
     by_place = [np.unique(found["points"], axis=0) for found in (joined, listed)]
     np.testing.assert_array_equal(*by_place)
+
+
+# runs a command, and tells its memory in KiB; of no other process that was started before
+MEASURE = """
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+"""
+
+
+def test_pieces_one_at_a_time_take_the_memory_of_one(program, tmp_path):
+    block = pyvista.ImageData(dimensions=(31, 31, 31)).to_tetrahedra(5)
+    names = [f"part{index}.vtu" for index in range(8)]
+    for index, name in enumerate(names):
+        part = block.translate((30.0 * index, 0.0, 0.0))
+        # a sphere in the third of them
+        away = part.points - [75.5, 15.5, 15.5]
+        part.point_data["u"] = np.linalg.norm(away, axis=1)
+        part.point_data["gradient"] = away / part.point_data["u"][:, None]
+        part.save(tmp_path / name)
+    list_of(tmp_path, names)
+
+    def memory(*arguments):
+        command = [sys.executable, "-c", MEASURE, program, *arguments]
+        options = ["-a", "u", "-v", "10", "--nside", "2", "--threads", "1"]
+        run = subprocess.run(
+            [*command, *options], cwd=tmp_path, capture_output=True, text=True, check=True
+        )
+        return int(run.stdout)
+
+    one = memory("part2.vtu", "-o", "one.vtp")
+    joined = memory("in.pvtu", "-o", "joined.vtp")
+    assert joined > 2.5 * one
+    for output in ("lines.vtp", "lines.pvtp"):
+        assert memory("in.pvtu", "-o", output, "--stream") < 1.6 * one, output
+    streamed = pyvista.read(tmp_path / "lines.vtp")
+    assert streamed.n_cells == pyvista.read(tmp_path / "joined.vtp").n_cells > 1000
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use vtu2contour::contour::Levels;
 use vtu2contour::contour::surface::Fineness;
-use vtu2contour::filter::{ContourOptions, Contoured, Stage, contour_owned, preview};
+use vtu2contour::filter::{ContourOptions, Contoured, Extent, Stage, contour_owned, preview};
 use vtu2contour::vtk::{AtomicFile, PvdEntry, UnstructuredGrid};
 
 use super::arguments::ContourArguments;
 use super::input::{Arrays, Input, Part};
 use super::messages::Messages;
-use super::output::{Format, Output, listed_file};
+use super::output::{Format, Output, Place, listed_file};
 use super::stats::{Clock, Stats, Step};
 use super::warnings::Warnings;
 
@@ -44,6 +44,7 @@ fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messa
         clock,
         warnings: Warnings::default(),
         stats: Stats::default(),
+        cells: 0,
         nothing: None,
     };
     let result = job.run(&mut output);
@@ -57,7 +58,11 @@ fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messa
 /// Opens the input, and refuses output that cannot hold all of it.
 fn open(arguments: &ContourArguments, format: Format) -> Result<Input> {
     let time = arguments.scalars.time;
-    let input = Input::open(arguments.input(), time, format == Format::Pvtp)?;
+    let stream = arguments.stream;
+    if stream && !format.joins_pieces() && format != Format::Pvtp {
+        bail!("--stream is for .vtp, .vtu and .pvtp: leave it out, or write one of these");
+    }
+    let input = Input::open(arguments.input(), time, stream || format == Format::Pvtp)?;
     if !input.is_series() || !input.is_several() || format == Format::Pvd {
         return Ok(input);
     }
@@ -71,7 +76,7 @@ fn open(arguments: &ContourArguments, format: Format) -> Result<Input> {
     }
 }
 
-/// Contouring all parts of an input at the same levels.
+/// Contouring all parts of an input, at the same levels.
 struct Job<'a> {
     input: &'a Input,
     options: ContourOptions,
@@ -81,6 +86,8 @@ struct Job<'a> {
     clock: Clock,
     warnings: Warnings,
     stats: Stats,
+    /// How many cells the parts so far have.
+    cells: usize,
     /// Why the first of the parts without anything to contour has nothing.
     nothing: Option<anyhow::Error>,
 }
@@ -89,41 +96,55 @@ impl Job<'_> {
     fn run(&mut self, output: &mut Output) -> Result<()> {
         self.input.warnings.iter().for_each(|text| self.warnings.add(None, text));
         if self.input.is_several() {
-            self.share_levels()?;
+            self.look_ahead()?;
         }
         for (place, part) in self.input.parts.iter().enumerate() {
             self.contour_part(place, part, output)?;
         }
+        self.clock.next(Step::Write);
+        output.write_whole()?;
         if self.stats.is_empty() {
             let all_empty = || anyhow!("nothing to contour: every piece is empty");
             return Err(self.nothing.take().unwrap_or_else(all_empty));
         }
-        if let Some(warning) = self.stats.level_warning() {
+        let of_gradients = self.stats.gradient_warning().filter(|_| self.input.is_in_pieces());
+        for warning in of_gradients.into_iter().chain(self.stats.level_warning()) {
             self.warnings.add(None, &warning);
         }
         Ok(())
     }
 
-    /// Chooses the levels, where they are inside a range that only all parts together tell.
-    fn share_levels(&mut self) -> Result<()> {
-        if !matches!(self.options.levels, Levels::Equal { range: None, .. }) {
+    /// Finds out what only all parts together tell: the levels, if they are inside the range of
+    /// all, and of pieces the size of the whole, for they have to be equally fine where they meet.
+    fn look_ahead(&mut self) -> Result<()> {
+        let needs_range = matches!(self.options.levels, Levels::Equal { range: None, .. });
+        let is_in_pieces = self.input.is_in_pieces();
+        if !needs_range && !is_in_pieces {
             return Ok(());
         }
         self.clock.next(Step::Range);
-        let mut all: Option<[f64; 2]> = None;
+        let (mut range, mut extent) = (None, Extent::default());
         for (place, part) in self.input.parts.iter().enumerate() {
             self.stage(place, "looking for the range");
             let grid = self.input.read(part, Arrays::Needed(&self.options))?.data;
-            match preview(&grid, &self.options) {
-                Ok(found) => all = Some(joined(all, found.range)),
+            let found = match needs_range {
+                true => preview(&grid, &self.options).map(|found| {
+                    range = Some(joined(range, found.range));
+                    found.extent
+                }),
+                false => Extent::of_grid(&grid, &self.options),
+            };
+            match found {
+                Ok(found) => extent = extent.joined(found),
                 Err(_) if grid.types.is_empty() => {}
                 Err(error) if error.is_nothing_to_contour() => {}
                 Err(error) => return Err(self.input.explained(part, &error)),
             }
         }
-        if let Some(range) = all {
+        if let Some(range) = range {
             self.options.levels = Levels::Explicit(self.options.levels.resolve(range)?);
         }
+        self.options.size = is_in_pieces.then(|| extent.diagonal());
         Ok(())
     }
 
@@ -135,6 +156,8 @@ impl Job<'_> {
         let name = self.input.name(part);
         loaded.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
         let entry = self.entry(part, &loaded.data);
+        let first_cell = self.cells;
+        self.cells += loaded.data.types.len();
         let Some(contoured) = self.contour(place, part, loaded.data)? else { return Ok(()) };
         self.clock.next(Step::Write);
         self.stage(place, "writing");
@@ -142,7 +165,10 @@ impl Job<'_> {
         report.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
         self.messages.detail(&described(&contoured, name.as_deref()));
         self.stats.add(&entry, &contoured);
-        output.add(place, &entry, contoured)
+        let left_out = output.add(Place { index: place, first_cell }, &entry, contoured)?;
+        let unlike = |name| format!("array '{name}' left out: it is not alike in all pieces");
+        left_out.into_iter().for_each(|array| self.warnings.add(name.as_deref(), &unlike(array)));
+        Ok(())
     }
 
     /// The contours of a part; nothing if it holds nothing to contour, but others may.

@@ -13,6 +13,8 @@ use super::arguments::Time;
 /// An open file, and which parts of it are contoured.
 pub struct Input {
     path: PathBuf,
+    /// The series that lists the file, where that is taken in pieces.
+    series: Option<PathBuf>,
     file: AnyFile,
     /// The parts, at least one.
     pub parts: Vec<Part>,
@@ -41,32 +43,49 @@ pub enum Arrays<'a> {
 
 impl Input {
     /// Opens a file. A series has its steps as parts, or those at a time; any other file has
-    /// one part, unless it is to be taken in pieces.
+    /// one part. A list of pieces that is to be taken `in_pieces` has these as parts, also if it is
+    /// the only step of a series.
     pub fn open(path: &Path, time: Option<Time>, in_pieces: bool) -> Result<Self> {
         let file = AnyFile::open(path)?;
-        let is_series = matches!(file, AnyFile::Pvd(_));
-        if time.is_some() && !is_series {
-            bail!("'{}' is no series (.pvd): leave --time out", path.display());
-        }
         let mut input = Self {
             path: path.to_owned(),
-            parts: parts_of(path, &file, in_pieces),
+            series: None,
+            parts: steps_of(path, &file),
             file,
             whole: None,
             warnings: Vec::new(),
         };
         if let Some(time) = time {
+            if !input.is_series() {
+                bail!("'{}' is no series (.pvd): leave --time out", path.display());
+            }
             input.choose(time)?;
+        }
+        if in_pieces {
+            input.take_pieces()?;
         }
         if input.parts.is_empty() {
             bail!("'{}' lists no file: there is nothing to contour", path.display());
         }
-        if !is_series && in_pieces {
-            let whole = input.file.description()?;
-            input.warnings.clone_from(&whole.warnings);
-            input.whole = Some(whole);
-        }
         Ok(input)
+    }
+
+    /// Makes the pieces of a list the parts.
+    fn take_pieces(&mut self) -> Result<()> {
+        if let (AnyFile::Pvd(series), [step]) = (&self.file, &self.parts[..]) {
+            let (path, file) = (step.entry.file.clone(), series.open_entry(&step.entry)?);
+            self.series = Some(std::mem::replace(&mut self.path, path));
+            self.file = file;
+        }
+        if matches!(self.file, AnyFile::Pvtu(_) | AnyFile::Pvtp(_)) {
+            self.parts = parts_of(self.file.piece_paths().iter().map(|path| lone(path)));
+        }
+        if !self.is_series() {
+            let whole = self.file.description()?;
+            self.warnings.clone_from(&whole.warnings);
+            self.whole = Some(whole);
+        }
+        Ok(())
     }
 
     /// The only part.
@@ -87,6 +106,11 @@ impl Input {
     /// Whether the input is a series, or one step of it.
     pub fn is_series(&self) -> bool {
         matches!(self.file, AnyFile::Pvd(_))
+    }
+
+    /// Whether the parts are pieces of a whole.
+    pub fn is_in_pieces(&self) -> bool {
+        self.is_several() && !self.is_series()
     }
 
     /// Whether there are several parts, which share their levels.
@@ -117,6 +141,7 @@ impl Input {
     /// If a file of a series is missing: better told before the work than after.
     pub fn files(&self) -> Result<Vec<PathBuf>> {
         let mut files = vec![self.path.clone()];
+        files.extend(self.series.clone());
         files.extend_from_slice(self.file.piece_paths());
         if let AnyFile::Pvd(series) = &self.file {
             for Part { entry, .. } in &self.parts {
@@ -173,16 +198,21 @@ fn read_file(file: &AnyFile, arrays: Arrays) -> Result<Loaded<UnstructuredGrid>,
     }
 }
 
-fn parts_of(path: &Path, file: &AnyFile, in_pieces: bool) -> Vec<Part> {
-    let lone = |path: &Path| PvdEntry { file: path.to_owned(), ..PvdEntry::default() };
-    let entries = match file {
-        AnyFile::Pvd(series) => series.entries().to_vec(),
-        AnyFile::Pvtu(_) | AnyFile::Pvtp(_) if in_pieces => {
-            file.piece_paths().iter().map(|path| lone(path)).collect()
-        }
-        _ => vec![lone(path)],
-    };
+/// The steps of a series; of another file only itself.
+fn steps_of(path: &Path, file: &AnyFile) -> Vec<Part> {
+    match file {
+        AnyFile::Pvd(series) => parts_of(series.entries().iter().cloned()),
+        _ => parts_of([lone(path)]),
+    }
+}
+
+fn parts_of(entries: impl IntoIterator<Item = PvdEntry>) -> Vec<Part> {
     entries.into_iter().enumerate().map(|(index, entry)| Part { index, entry }).collect()
+}
+
+/// A file that no series lists.
+fn lone(path: &Path) -> PvdEntry {
+    PvdEntry { file: path.to_owned(), ..PvdEntry::default() }
 }
 
 /// The pieces of an entry that is a list itself.

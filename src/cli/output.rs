@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use vtu2contour::filter::{Contoured, picture};
+use vtu2contour::filter::{Contoured, picture, renumber_cells};
 use vtu2contour::vtk::{
     AtomicFile, ClosedFile, Declaration, OutputFolder, PolyData, PvdEntry, VtkError, WriteOptions,
     write_pvd_to, write_pvtp_to, write_vtp_to, write_vtu_to,
@@ -47,10 +47,24 @@ impl Format {
         matches!(self, Self::Pvtp | Self::Pvd)
     }
 
+    /// Whether what is written of pieces is one again.
+    pub fn joins_pieces(self) -> bool {
+        matches!(self, Self::Vtp | Self::Vtu)
+    }
+
     /// Whether the data of the input travel along.
     pub fn has_data(self) -> bool {
         self != Self::Svg
     }
+}
+
+/// Which part of the input contours are of.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its number among the parts.
+    pub index: usize,
+    /// How many cells those before it have.
+    pub first_cell: usize,
 }
 
 /// Output that is being written. All its files appear together, or none of them.
@@ -61,6 +75,8 @@ pub struct Output {
     mesh: bool,
     /// The file of the output's name, until something is in it.
     main: AtomicFile,
+    /// The contours of all parts so far, where they become one.
+    whole: Option<PolyData>,
     entries: Vec<PvdEntry>,
     files: Vec<ClosedFile>,
     /// What the pieces of a `.pvtp` have.
@@ -80,6 +96,7 @@ impl Output {
             options,
             mesh,
             main: AtomicFile::create(path)?,
+            whole: None,
             entries: Vec::new(),
             files: Vec::new(),
             declaration: None,
@@ -87,16 +104,45 @@ impl Output {
         })
     }
 
-    /// Writes the contours of the part `index` of the input.
-    pub fn add(&mut self, index: usize, from: &PvdEntry, contoured: Contoured) -> Result<()> {
-        let data = match self.format {
-            Format::Svg => return self.draw(&contoured),
-            _ => contoured.poly_data,
-        };
+    /// Adds the contours of a part of the input. Returns the names of arrays that are left out, as
+    /// they are not alike in all parts.
+    pub fn add(
+        &mut self,
+        place: Place,
+        from: &PvdEntry,
+        contoured: Contoured,
+    ) -> Result<Vec<String>> {
         match self.format {
-            Format::Vtu => Ok(write_vtu_to(&mut self.main, &data.into_grid(), self.options)?),
-            Format::Vtp => Ok(write_vtp_to(&mut self.main, &data, self.options)?),
-            _ => Ok(self.add_listed(index, from, &data)?),
+            Format::Svg => self.draw(&contoured)?,
+            Format::Vtp | Format::Vtu => {
+                return Ok(self.append(place.first_cell, contoured.poly_data));
+            }
+            _ => self.add_listed(place.index, from, &contoured.poly_data)?,
+        }
+        Ok(Vec::new())
+    }
+
+    fn append(&mut self, first_cell: usize, mut data: PolyData) -> Vec<String> {
+        if first_cell > 0 {
+            renumber_cells(&mut data, first_cell);
+        }
+        match &mut self.whole {
+            Some(whole) => whole.append(data),
+            None => {
+                self.whole = Some(data);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Writes what is one file of all parts.
+    pub fn write_whole(&mut self) -> Result<(), VtkError> {
+        match (self.format, self.whole.take()) {
+            (Format::Vtu, Some(data)) => {
+                write_vtu_to(&mut self.main, &data.into_grid(), self.options)
+            }
+            (_, Some(data)) => write_vtp_to(&mut self.main, &data, self.options),
+            (_, None) => Ok(()),
         }
     }
 

@@ -19,6 +19,9 @@ pub struct Stats {
     /// Places of the levels that have lines or surfaces.
     #[serde(skip)]
     drawn: BTreeSet<usize>,
+    /// Where the parts' gradients came from.
+    #[serde(skip)]
+    gradients: BTreeSet<String>,
     #[serde(flatten)]
     all: Counts,
     seconds: Seconds,
@@ -90,7 +93,7 @@ struct Output {
 /// Wall-clock seconds of each stage.
 #[derive(Debug, Default, Serialize)]
 pub struct Seconds {
-    /// Looking for the range of all parts; 0 where there was no need to.
+    /// Looking for the range and the size of all parts; 0 where there was no need to.
     range: f64,
     read: f64,
     field: f64,
@@ -103,7 +106,7 @@ pub struct Seconds {
 /// What takes time.
 #[derive(Clone, Copy, Debug)]
 pub enum Step {
-    /// Looking for the range of all parts.
+    /// Looking for the range and the size of all parts.
     Range,
     /// Reading a file.
     Read,
@@ -160,6 +163,7 @@ impl Stats {
         } else {
             self.all += &counts;
         }
+        self.gradients.insert(contoured.report.gradient.to_string());
         self.drawn.extend(contoured.lines.lines.iter().map(|line| line.level));
         let surfaces = contoured.surface.level_triangles.iter().enumerate();
         self.drawn.extend(surfaces.filter(|(_, range)| !range.is_empty()).map(|(level, _)| level));
@@ -179,6 +183,17 @@ impl Stats {
     pub fn level_warning(&self) -> Option<String> {
         level_warning(&self.array, self.all.range, &self.levels, |level| {
             self.drawn.contains(&level)
+        })
+    }
+
+    /// What people should know about the gradients, if the parts are pieces of a whole.
+    pub fn gradient_warning(&self) -> Option<String> {
+        (self.gradients.len() > 1).then(|| {
+            let origins = Vec::from_iter(self.gradients.iter().map(String::as_str)).join(", ");
+            format!(
+                "the gradient is not the same in all pieces ({origins}): contours may not meet where \
+                 pieces do; --gradient NAME takes one array in all"
+            )
         })
     }
 

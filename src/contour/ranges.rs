@@ -151,19 +151,29 @@ impl CellRanges {
         })
     }
 
-    /// The cells that may attain more extreme values than any vertex does; `vertices` are the
-    /// values at those of a cell, and `bounds` are what its range was rounded of.
-    pub fn cells_beyond_vertices<const CORNERS: usize>(
+    /// The least and the greatest value at the vertices of usable cells; `vertices` are those of a
+    /// cell. Nothing without usable cells.
+    pub fn at_vertices<const CORNERS: usize>(
         &self,
         vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
+    ) -> Option<[f64; 2]> {
+        let values = |cell: usize| {
+            let values = vertices(cell);
+            [Extreme::Minimum, Extreme::Maximum].map(|which| which.best(&values))
+        };
+        let joined = |a: [f64; 2], b: [f64; 2]| {
+            [Extreme::Minimum.better(a[0], b[0]), Extreme::Maximum.better(a[1], b[1])]
+        };
+        self.usable().map(values).reduce_with(joined)
+    }
+
+    /// The cells that may attain values outside an interval; `bounds` are what a cell's range was
+    /// rounded of.
+    pub fn cells_beyond(
+        &self,
+        [low, high]: [f64; 2],
         bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync,
     ) -> Subset {
-        let at_vertices = |cell: usize, which: Extreme| which.best(&vertices(cell));
-        let extremes = [Extreme::Minimum, Extreme::Maximum]
-            .map(|which| self.extreme_at_vertices(which, &at_vertices));
-        let [Some(low), Some(high)] = extremes else {
-            return Subset::new(self.ranges.len(), |_| false);
-        };
         let is_beyond = |[least, greatest]: [f64; 2]| least < low || greatest > high;
         Subset::new(self.ranges.len(), |cell| {
             // a plateau is beyond only by the rounding to single precision
@@ -178,44 +188,57 @@ impl CellRanges {
     /// Levels strictly between them have a contour, which is not so for levels
     /// between the extreme coefficients.
     pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
-        let at_vertices = |cell: usize, which: Extreme| which.best(&interpolant.vertices(cell));
+        let at_vertices = self.at_vertices(|cell| interpolant.vertices(cell))?;
+        Some(self.attained_beyond(at_vertices, interpolant))
+    }
+
+    /// The same where it is known what is attained at the vertices.
+    pub fn attained_beyond(
+        &self,
+        at_vertices: [f64; 2],
+        interpolant: &dyn TriangleCubics,
+    ) -> [f64; 2] {
         let search =
             |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
         let bounds =
             |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
-        self.attained_by(&at_vertices, &bounds, &search)
+        self.attained_by(at_vertices, &bounds, &search)
     }
 
     /// The same as [`CellRanges::attained`], for tetrahedra.
     pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
-        let at_vertices = |cell: usize, which: Extreme| which.best(&interpolant.vertices(cell));
+        let at_vertices = self.at_vertices(|cell| interpolant.vertices(cell))?;
+        Some(self.attained_beyond_in_tetrahedra(at_vertices, interpolant))
+    }
+
+    /// The same as [`CellRanges::attained_beyond`], for tetrahedra.
+    pub fn attained_beyond_in_tetrahedra(
+        &self,
+        at_vertices: [f64; 2],
+        interpolant: &dyn TetrahedronCubics,
+    ) -> [f64; 2] {
         let search = |cell: usize, which: Extreme| {
             recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
         };
         let bounds =
             |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
-        self.attained_by(&at_vertices, &bounds, &search)
+        self.attained_by(at_vertices, &bounds, &search)
     }
 
-    fn attained_by(
-        &self,
-        at_vertices: &OfCell,
-        bounds: &OfCell,
-        search: &OfCell,
-    ) -> Option<[f64; 2]> {
-        let low = self.attained_extreme(Extreme::Minimum, at_vertices, bounds, search)?;
-        let high = self.attained_extreme(Extreme::Maximum, at_vertices, bounds, search)?;
-        Some([low, high])
+    fn attained_by(&self, [low, high]: [f64; 2], bounds: &OfCell, search: &OfCell) -> [f64; 2] {
+        let low = self.attained_extreme(Extreme::Minimum, low, bounds, search);
+        let high = self.attained_extreme(Extreme::Maximum, high, bounds, search);
+        [low, high]
     }
 
+    /// The extreme value, which at vertices is `start`.
     fn attained_extreme(
         &self,
         which: Extreme,
-        at_vertices: &OfCell,
+        start: f64,
         bounds: &OfCell,
         search: &OfCell,
-    ) -> Option<f64> {
-        let start = self.extreme_at_vertices(which, at_vertices)?;
+    ) -> f64 {
         let promises = |bound: f64| which.better(bound, start) != start;
         let promising = self.usable().filter(|&cell| {
             let wide = which.of(self.ranges[cell].map(f64::from));
@@ -225,12 +248,7 @@ impl CellRanges {
             checkpoint();
             search(cell, which)
         });
-        Some(searched.reduce(|| start, |a, b| which.better(a, b)))
-    }
-
-    fn extreme_at_vertices(&self, which: Extreme, at_vertices: &OfCell) -> Option<f64> {
-        let values = self.usable().map(|cell| at_vertices(cell, which));
-        values.reduce_with(|a, b| which.better(a, b))
+        searched.reduce(|| start, |a, b| which.better(a, b))
     }
 
     /// The cells that are not left out.
@@ -332,12 +350,16 @@ mod tests {
         let bounds = [[0.0, 1.0], [-0.5, 0.5], [0.0, 1.5], [0.1, 0.1]];
         let ranges = CellRanges::of_bounds(4, |cell| Some(bounds[cell]));
         let vertices = [[0.0, 1.0], [0.0, 0.1], [0.2, 0.3], [0.1, 0.1]];
-        let exact = |cell: usize| Some(bounds[cell]);
-        let beyond = ranges.cells_beyond_vertices(|cell| vertices[cell], exact);
+        let at_vertices = ranges.at_vertices(|cell| vertices[cell]).unwrap();
+        assert_eq!(at_vertices, [0.0, 1.0]);
+        let beyond = ranges.cells_beyond(at_vertices, |cell| Some(bounds[cell]));
         assert_eq!(beyond.simplices().collect::<Vec<_>>(), [1, 2]);
         // 0.1 is no number of single precision
         let plateau = CellRanges::of_bounds(2, |_| Some([0.1, 0.1]));
-        assert!(plateau.cells_beyond_vertices(|_| [0.1; 3], |_| Some([0.1, 0.1])).is_empty());
+        assert!(plateau.cells_beyond([0.1, 0.1], |_| Some([0.1, 0.1])).is_empty());
+        // what is left out has no values
+        let none = CellRanges::of_bounds(2, |_| None);
+        assert_eq!(none.at_vertices(|_| [0.0]), None);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::contours::Contours;
 use super::error::FilterError;
+use super::extent::Extent;
 use super::interpolant::Interpolant;
 use super::options::ContourOptions;
 use super::output::{Output, OutputOptions};
@@ -37,8 +38,9 @@ impl<'a> ContouredSolution<'a> {
         is_known: impl FnOnce(),
     ) -> Result<Self, FilterError> {
         // a wrong limit is better told before the work than after
-        options.resolution(options.size.unwrap_or_else(|| solution.diagonal()))?;
-        let interpolant = Interpolant::at_levels(solution, options)?;
+        let diagonal = options.size.unwrap_or_else(|| Extent::of_solution(&solution).diagonal());
+        options.resolution(diagonal)?;
+        let interpolant = Interpolant::at_levels(solution, options, diagonal)?;
         is_known();
         let contours = interpolant.contours(options)?;
         Ok(Self { interpolant, contours })

@@ -37,15 +37,18 @@ impl<'a> Interpolant<'a> {
     }
 
     /// The same for contours at the options' levels only: nothing else may be asked of it. It
-    /// takes much less time and memory if few cells hold the levels.
+    /// takes much less time and memory if few cells hold the levels. `diagonal` is that of the
+    /// solution's [`Extent`](super::Extent).
     ///
     /// # Errors
     /// If no cell has finite values, or a level is no number.
     pub(super) fn at_levels(
         solution: Solution<'a>,
         options: &ContourOptions,
+        diagonal: f64,
     ) -> Result<Self, FilterError> {
-        let interpolation = Cow::Owned(Interpolation::at_levels(&solution, options)?);
+        let interpolation = Interpolation::at_levels(&solution, options, diagonal)?;
+        let interpolation = Cow::Owned(interpolation);
         Ok(Self { solution, interpolation })
     }
 

@@ -1,6 +1,7 @@
 //! What is computed of a solution before any level is known.
 
 use super::error::FilterError;
+use super::extent::Extent;
 use super::merge_points::coincidence_warning;
 use super::options::{ContourOptions, InterpolantKind};
 use super::range_warning::range_warning;
@@ -24,7 +25,7 @@ pub struct Interpolation {
     pub tetrahedra: Option<Interpolated<OnTetrahedra>>,
     /// The least and the greatest value of the cubics.
     pub range: [f64; 2],
-    /// The length of the diagonal of the box around all cells, see [`Solution::diagonal`].
+    /// The length of the diagonal of the solution's [`Extent`].
     pub diagonal: f64,
     /// What people should know about the solution, a line each.
     pub warnings: Vec<String>,
@@ -103,7 +104,8 @@ impl Interpolation {
             solution.triangles.as_ref().and_then(|d| in_triangles(solution, d, options));
         let tetrahedra =
             solution.tetrahedra.as_ref().and_then(|d| in_tetrahedra(solution, d, options));
-        Self::of_domains(solution, triangles, tetrahedra)
+        let diagonal = Extent::of_solution(solution).diagonal();
+        Self::of_domains(solution, triangles, tetrahedra, diagonal)
     }
 
     /// What is computed of the cells of both dimensions, taken together.
@@ -111,12 +113,13 @@ impl Interpolation {
         solution: &Solution,
         triangles: Option<Interpolated<OnTriangles>>,
         tetrahedra: Option<Interpolated<OnTetrahedra>>,
+        diagonal: f64,
     ) -> Result<Self, FilterError> {
         let ranges = [triangles.as_ref().map(|i| i.range), tetrahedra.as_ref().map(|i| i.range)];
         let no_values = || FilterError::NoValues { name: solution.label.clone() };
         let range = joined(ranges).ok_or_else(no_values)?;
         let warnings = warnings(solution, ranges);
-        Ok(Self { triangles, tetrahedra, range, diagonal: solution.diagonal(), warnings })
+        Ok(Self { triangles, tetrahedra, range, diagonal, warnings })
     }
 
     /// How many triangles and tetrahedra are those of another process.

@@ -13,6 +13,7 @@ mod contoured_solution;
 mod contours;
 mod error;
 mod evaluation;
+mod extent;
 mod family_member;
 mod gradient_arrays;
 mod gradients;
@@ -49,6 +50,7 @@ pub use contoured_solution::ContouredSolution;
 pub use contours::Contours;
 pub use error::FilterError;
 pub use evaluation::{Locators, Place};
+pub use extent::Extent;
 pub use family_member::FamilyMember;
 pub use gradients::{GradientOrigin, GradientSource, Gradients};
 pub use interpolant::Interpolant;
@@ -58,7 +60,9 @@ pub use level_warning::level_warning;
 pub use monitor::{MonitorOptions, Monitored, MonitoredGrid, monitor};
 pub use needed_arrays::needed_arrays;
 pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, InterpolantKind};
-pub use output::{ORIGINAL_CELLS, Output, OutputOptions, OutputPoint, OutputPoints};
+pub use output::{
+    ORIGINAL_CELLS, Output, OutputOptions, OutputPoint, OutputPoints, renumber_cells,
+};
 pub use picture::picture;
 pub use preview::{Preview, preview};
 pub use refined_grid::{

@@ -188,6 +188,17 @@ impl Output {
     }
 }
 
+/// Numbers the cells that contours of a piece come from as those of the whole, in which so many
+/// are in the pieces before.
+pub fn renumber_cells(contours: &mut PolyData, before: usize) {
+    for data in [&mut contours.point_data, &mut contours.cell_data] {
+        if let Some(DataArray { values: Values::I64(cells), .. }) = data.get(ORIGINAL_CELLS) {
+            let cells: Vec<i64> = cells.iter().map(|cell| cell + before as i64).collect();
+            data.push(DataArray::new(ORIGINAL_CELLS, 1, cells));
+        }
+    }
+}
+
 fn cell_numbers(cells: impl Iterator<Item = u32>) -> DataArray {
     DataArray::new(ORIGINAL_CELLS, 1, cells.map(i64::from).collect::<Vec<i64>>())
 }

@@ -17,15 +17,16 @@ use crate::mesh::{SimplexMesh, Subset, TetrahedronMesh, TriangleMesh};
 
 impl Interpolation {
     /// The interpolant of a solution that the options name, for their levels only: elsewhere it
-    /// is not to be looked at.
+    /// is not to be looked at. `diagonal` is that of the solution's extent.
     ///
     /// # Errors
     /// If no cell has finite values, or a level is no number.
     pub(super) fn at_levels(
         solution: &Solution,
         options: &ContourOptions,
+        diagonal: f64,
     ) -> Result<Self, FilterError> {
-        Self::for_levels(solution, options, &options.levels)
+        Self::for_levels(solution, options, &options.levels, diagonal)
     }
 
     /// The same for no level: only its range is to be looked at.
@@ -35,14 +36,16 @@ impl Interpolation {
     pub(super) fn of_range(
         solution: &Solution,
         options: &ContourOptions,
+        diagonal: f64,
     ) -> Result<Self, FilterError> {
-        Self::for_levels(solution, options, &Levels::Explicit(Vec::new()))
+        Self::for_levels(solution, options, &Levels::Explicit(Vec::new()), diagonal)
     }
 
     fn for_levels(
         solution: &Solution,
         options: &ContourOptions,
         levels: &Levels,
+        diagonal: f64,
     ) -> Result<Self, FilterError> {
         if options.interpolant != InterpolantKind::Pci || solution.pde.is_some() {
             return Self::new(solution, options);
@@ -55,7 +58,7 @@ impl Interpolation {
         let levels = joined(ranges).map_or(Ok(Vec::new()), |range| levels.resolve(range))?;
         let triangles = flat.map(|bounded| bounded.at(&levels));
         let tetrahedra = solid.map(|bounded| bounded.at(&levels));
-        Self::of_domains(solution, triangles, tetrahedra)
+        Self::of_domains(solution, triangles, tetrahedra, diagonal)
     }
 }
 
@@ -82,10 +85,11 @@ where
         let mut ranges = CellRanges::of_bounds(domain.count(), reach);
         let ghosts = domain.exclude_ghosts(&mut ranges);
         let values = |cell: usize| mesh.simplices()[cell].map(|p| field.values[p as usize]);
-        let extreme = ranges.cells_beyond_vertices(values, reach);
+        let at_vertices = ranges.at_vertices(values)?;
+        let extreme = ranges.cells_beyond(at_vertices, reach);
         let coefficients = Coefficients::in_some(mesh, field, &extreme);
         coefficients.narrow(mesh, field, &mut ranges, &extreme);
-        let range = coefficients.attained(mesh, field, &ranges)?;
+        let range = coefficients.attained_beyond(at_vertices, mesh, field, &ranges);
         Some(Self { mesh, field, ranges, range, ghosts, coefficients: PhantomData })
     }
 
@@ -116,13 +120,14 @@ trait InSome<const CORNERS: usize> {
         cells: &Subset,
     );
 
-    /// Its least and greatest value.
-    fn attained(
+    /// Its least and greatest value, given those at the vertices.
+    fn attained_beyond(
         &self,
+        at_vertices: [f64; 2],
         mesh: &SimplexMesh<CORNERS>,
         field: Field,
         ranges: &CellRanges,
-    ) -> Option<[f64; 2]>;
+    ) -> [f64; 2];
 }
 
 impl InSome<3> for OnTriangles {
@@ -138,8 +143,14 @@ impl InSome<3> for OnTriangles {
         ranges.narrow(cells, self.cubics(mesh, field).as_ref());
     }
 
-    fn attained(&self, mesh: &TriangleMesh, field: Field, ranges: &CellRanges) -> Option<[f64; 2]> {
-        ranges.attained(self.cubics(mesh, field).as_ref())
+    fn attained_beyond(
+        &self,
+        at_vertices: [f64; 2],
+        mesh: &TriangleMesh,
+        field: Field,
+        ranges: &CellRanges,
+    ) -> [f64; 2] {
+        ranges.attained_beyond(at_vertices, self.cubics(mesh, field).as_ref())
     }
 }
 
@@ -162,12 +173,13 @@ impl InSome<4> for OnTetrahedra {
         ranges.narrow_tetrahedra(cells, self.cubics(mesh, field).as_ref());
     }
 
-    fn attained(
+    fn attained_beyond(
         &self,
+        at_vertices: [f64; 2],
         mesh: &TetrahedronMesh,
         field: Field,
         ranges: &CellRanges,
-    ) -> Option<[f64; 2]> {
-        ranges.attained_in_tetrahedra(self.cubics(mesh, field).as_ref())
+    ) -> [f64; 2] {
+        ranges.attained_beyond_in_tetrahedra(at_vertices, self.cubics(mesh, field).as_ref())
     }
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::contour_filter::prepared;
 use super::error::FilterError;
+use super::extent::Extent;
 use super::gradients::{GradientOrigin, Gradients};
 use super::interpolation::Interpolation;
 use super::options::ContourOptions;
@@ -34,6 +35,8 @@ pub struct Preview {
     pub ghosts: usize,
     /// The least and the greatest value of the interpolant.
     pub range: [f64; 2],
+    /// How large its cells are together.
+    pub extent: Extent,
 }
 
 /// Finds out what [`contour`](super::contour()) would do with a grid. All that it does is
@@ -45,7 +48,8 @@ pub struct Preview {
 pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Preview, FilterError> {
     let grid = prepared(Cow::Borrowed(grid), options)?;
     let solution = Solution::of_grid(&grid, options)?;
-    let interpolation = Interpolation::of_range(&solution, options)?;
+    let extent = Extent::of_solution(&solution);
+    let interpolation = Interpolation::of_range(&solution, options, extent.diagonal())?;
     let (ghosts, unusable) = (interpolation.ghosts(), interpolation.unusable());
     let Solution { label, triangles, tetrahedra, left_out, folded, .. } = solution;
     let triangle_count = triangles.as_ref().map_or(0, Domain::count);
@@ -64,6 +68,7 @@ pub fn preview(grid: &UnstructuredGrid, options: &ContourOptions) -> Result<Prev
         unusable,
         ghosts,
         range: interpolation.range,
+        extent,
     })
 }
 

@@ -137,12 +137,6 @@ impl Solution<'_> {
         used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
     }
 
-    /// The length of the diagonal of the box around all cells: of the larger one, where there
-    /// are two kinds.
-    pub fn diagonal(&self) -> f64 {
-        diagonal(self.triangles.as_ref()).max(diagonal(self.tetrahedra.as_ref()))
-    }
-
     /// Where the gradient came from: in solids, if there are any.
     pub fn gradient_origin(&self) -> GradientOrigin {
         let in_triangles = self.triangles.as_ref().map(|domain| &domain.gradients.origin);
@@ -154,10 +148,6 @@ impl Solution<'_> {
     pub fn pde_warnings(&self) -> &[String] {
         self.pde.as_ref().map_or(&[], |known| &known.warnings)
     }
-}
-
-fn diagonal<const CORNERS: usize>(domain: Option<&Domain<CORNERS>>) -> f64 {
-    domain.map_or(0.0, |domain| domain.mesh.diagonal())
 }
 
 impl<const CORNERS: usize> Domain<'static, CORNERS> {

@@ -5,6 +5,7 @@
 //! (frames, neighbours, boundary edges) is computed from these when needed.
 
 mod boundary;
+mod bounding_box;
 mod closest_point;
 mod edges;
 mod faces;
@@ -19,6 +20,7 @@ mod subset;
 mod tetrahedron_frame;
 
 pub use boundary::boundary_edges;
+pub use bounding_box::BoundingBox;
 pub use edges::Edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};

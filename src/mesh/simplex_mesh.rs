@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::Vector;
+use super::bounding_box::BoundingBox;
 use super::frame::TriangleFrame;
 use super::subset::Subset;
 use super::tetrahedron_frame::TetrahedronFrame;
@@ -156,19 +157,21 @@ impl<'a, const CORNERS: usize> SimplexMesh<'a, CORNERS> {
         }
     }
 
-    /// The length of the diagonal of the simplices' bounding box; zero without
-    /// simplices. Points that no simplex uses, and those that are not finite, do not
-    /// count.
-    pub fn diagonal(&self) -> f64 {
+    /// The box around the simplices; nothing without any. Points that no simplex uses, and
+    /// those that are not finite, do not count.
+    pub fn bounding_box(&self) -> Option<BoundingBox> {
         let mut is_used = vec![false; self.points.len()];
         for corner in self.simplices.iter().flatten() {
             is_used[*corner as usize] = true;
         }
         let used = self.points.par_iter().zip(is_used).filter(|(_, is_used)| *is_used);
         let finite = used.map(|(point, _)| *point).filter(|p| p.iter().all(|x| x.is_finite()));
-        let boxes = finite.map(|point| (point, point));
-        let whole = boxes.reduce_with(|(low, high), (l, h)| (low.inf(&l), high.sup(&h)));
-        whole.map_or(0.0, |(low, high)| (high - low).norm())
+        finite.map(BoundingBox::of_point).reduce_with(BoundingBox::joined)
+    }
+
+    /// The length of that box's diagonal; zero without simplices.
+    pub fn diagonal(&self) -> f64 {
+        self.bounding_box().map_or(0.0, |around| around.diagonal())
     }
 }
 

@@ -1,6 +1,7 @@
 //! The arrays of points, cells or the field, and which of them are active.
 
 use super::data_array::DataArray;
+use std::collections::HashMap;
 
 /// The roles an array of points or cells can be given in VTK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -132,10 +133,34 @@ impl Attributes {
         Self { arrays, active }
     }
 
+    /// Appends the tuples of another set's arrays to those of the same names. Arrays that are not
+    /// in both, or not of the same type and components, are left out; their names are returned.
+    pub(super) fn append(&mut self, other: Self) -> Vec<String> {
+        let is_known = |array: &DataArray| self.get(&array.name).is_some();
+        let (more, extra): (Vec<_>, Vec<_>) = other.arrays.into_iter().partition(is_known);
+        let mut left_out: Vec<String> = extra.into_iter().map(|array| array.name).collect();
+        let mut more = more.into_iter().map(|array| (array.name.clone(), array)).collect();
+        self.arrays.retain_mut(|array| {
+            let is_appended = append_to(array, &mut more);
+            if !is_appended {
+                left_out.push(array.name.clone());
+            }
+            is_appended
+        });
+        self.active.retain(|(_, name)| !left_out.contains(name));
+        left_out
+    }
+
     /// The arrays, to be changed in place.
     pub(super) fn iter_mut(&mut self) -> std::slice::IterMut<'_, DataArray> {
         self.arrays.iter_mut()
     }
+}
+
+/// Appends the array of the same name, if it is there and of the same shape; says whether.
+fn append_to(array: &mut DataArray, more: &mut HashMap<String, DataArray>) -> bool {
+    let more = more.remove(&array.name).filter(|more| more.components == array.components);
+    more.is_some_and(|more| array.values.append(more.values))
 }
 
 impl<'a> IntoIterator for &'a Attributes {
@@ -171,6 +196,29 @@ mod tests {
         let names: Vec<_> = set.iter().map(|array| array.name.as_str()).collect();
         assert_eq!(names, ["a", "b"]);
         assert_eq!(set.get("a").unwrap().values, vec![7i8].into());
+    }
+
+    #[test]
+    fn arrays_that_are_alike_are_appended() {
+        let array =
+            |name, components, values: &[f64]| DataArray::new(name, components, values.to_vec());
+        let mut set: Attributes = [
+            array("a", 1, &[1.0, 2.0]),
+            array("shape", 2, &[0.0; 4]),
+            array("only here", 1, &[0.0; 2]),
+            DataArray::new("type", 1, vec![1i8, 2]),
+        ]
+        .into_iter()
+        .collect();
+        set.set_active(AttributeKind::Vectors, "shape");
+        set.set_active(AttributeKind::Scalars, "a");
+        let more = ["type", "only there", "shape", "a"].map(|name| array(name, 1, &[3.0]));
+        let mut left_out = set.append(more.into_iter().collect());
+        left_out.sort();
+        assert_eq!(left_out, ["only here", "only there", "shape", "type"]);
+        let mut expected: Attributes = [array("a", 1, &[1.0, 2.0, 3.0])].into_iter().collect();
+        expected.set_active(AttributeKind::Scalars, "a");
+        assert_eq!(set, expected);
     }
 
     #[test]

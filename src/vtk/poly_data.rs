@@ -4,6 +4,7 @@ use super::attributes::Attributes;
 use super::cell_array::CellArray;
 use super::data_array::DataArray;
 use super::unstructured_grid::UnstructuredGrid;
+use std::ops::Range;
 
 /// Points, lines, polygons and triangle strips, as VTK's `vtkPolyData`.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,16 +70,109 @@ impl PolyData {
         grid
     }
 
+    /// Appends the points, cells and data of another; its points are not merged. Arrays that are
+    /// not alike in both are left out: their names are returned. Field data are those of the
+    /// first that has any.
+    pub fn append(&mut self, other: Self) -> Vec<String> {
+        let cells = cells_by_kind(&self.counts(), &other.counts());
+        let first_point = self.points.tuples();
+        append_points(&mut self.points, other.points);
+        for (own, more) in [
+            (&mut self.verts, &other.verts),
+            (&mut self.lines, &other.lines),
+            (&mut self.polys, &other.polys),
+            (&mut self.strips, &other.strips),
+        ] {
+            own.append_moved(more, first_point);
+        }
+        let mut left_out = self.point_data.append(other.point_data);
+        left_out.extend(self.cell_data.append(other.cell_data));
+        if !cells.is_sorted_by_key(|range| range.start) {
+            for array in self.cell_data.iter_mut() {
+                let values =
+                    cells.iter().map(|c| c.start * array.components..c.end * array.components);
+                array.values = array.values.gather(&values.collect::<Vec<_>>());
+            }
+        }
+        if self.field_data.is_empty() {
+            self.field_data = other.field_data;
+        }
+        left_out
+    }
+
+    /// The number of cells of each kind, in the order of cell data.
+    fn counts(&self) -> [usize; 4] {
+        [&self.verts, &self.lines, &self.polys, &self.strips].map(CellArray::len)
+    }
+
     /// The number of cells of all four kinds, which cell data have as many tuples as.
     pub fn cell_count(&self) -> usize {
-        let kinds = [&self.verts, &self.lines, &self.polys, &self.strips];
-        kinds.iter().map(|cells| cells.len()).sum()
+        self.counts().iter().sum()
+    }
+}
+
+/// Where the cells of two stand one after the other, in the order of kinds: first all verts, then
+/// all lines, and so on. Kinds that there are none of are left out.
+fn cells_by_kind(first: &[usize; 4], second: &[usize; 4]) -> Vec<Range<usize>> {
+    let (mut next, mut next_of_second) = (0, first.iter().sum());
+    let mut ranges = Vec::with_capacity(8);
+    for (count, more) in first.iter().zip(second) {
+        ranges.extend([next..next + count, next_of_second..next_of_second + more]);
+        next += count;
+        next_of_second += more;
+    }
+    ranges.retain(|range| !range.is_empty());
+    ranges
+}
+
+/// Appends points; in double precision if either is.
+fn append_points(points: &mut DataArray, more: DataArray) {
+    if points.array_type() == more.array_type() {
+        points.values.append(more.values);
+    } else {
+        let both = [&*points, &more].map(|array| array.to_f64().unwrap_or_default());
+        points.values = both.concat().into();
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vtk::Values;
+
+    /// Points at 0, 1, ..., a polygon and so many lines, with numbers from `first`.
+    fn lines_and_a_polygon(points: Values, lines: usize, first: i64) -> PolyData {
+        let mut data = PolyData::new(DataArray::new("Points", 3, points));
+        (0..lines).for_each(|_| data.lines.push(&[0, 1]));
+        data.polys.push(&[2, 1, 0]);
+        let numbers: Vec<i64> = (first..=first + lines as i64).flat_map(|n| [n, -n]).collect();
+        data.cell_data.push(DataArray::new("n", 2, numbers));
+        data
+    }
+
+    #[test]
+    fn cells_of_a_kind_stand_together_when_others_are_appended() {
+        let single = Values::F32((0..9_u8).map(f32::from).collect());
+        let double = Values::F64((0..9_u8).map(f64::from).collect());
+        let mut data = lines_and_a_polygon(single, 1, 10);
+        data.point_data.push(DataArray::new("p", 1, vec![1_i8; 3]));
+        let mut more = lines_and_a_polygon(double, 2, 20);
+        more.field_data.push(DataArray::new("TimeValue", 1, vec![0.5]));
+        assert_eq!(data.append(more), ["p"]);
+        let numbers = [10, 20, 21, 11, 22].map(|n| [n, -n]).concat();
+        assert_eq!(data.cell_data.get("n").unwrap().values, Values::I64(numbers));
+        assert_eq!(data.lines.connectivity(), [0, 1, 3, 4, 3, 4]);
+        assert_eq!(data.polys.connectivity(), [2, 1, 0, 5, 4, 3]);
+        let points = (0..18_u8).map(|n| f64::from(n % 9)).collect();
+        assert_eq!(data.points.values, Values::F64(points));
+        assert_eq!(data.field_data.len(), 1);
+        // those of one kind only
+        let mut data = PolyData::new(DataArray::new("Points", 3, vec![0.0_f64; 6]));
+        data.lines.push(&[0, 1]);
+        data.cell_data.push(DataArray::new("n", 1, vec![7_u8]));
+        assert!(data.append(data.clone()).is_empty());
+        assert_eq!(data.cell_data.get("n").unwrap().values, Values::U8(vec![7, 7]));
+    }
 
     #[test]
     fn a_grid_has_the_same_cells_in_the_same_order() {

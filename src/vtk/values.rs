@@ -136,6 +136,22 @@ impl Values {
         match_values!(self, vector => Some(every(vector, first, step)), _texts => None)
     }
 
+    /// Appends values of the same type; returns whether they are.
+    pub(super) fn append(&mut self, more: Self) -> bool {
+        macro_rules! append {
+            ($($variant:ident)*) => {
+                match (self, more) {
+                    $((Self::$variant(values), Self::$variant(mut more)) => {
+                        values.append(&mut more);
+                        true
+                    })*
+                    _ => false,
+                }
+            };
+        }
+        append!(I8 U8 I16 U16 I32 U32 I64 U64 F32 F64 Strings)
+    }
+
     /// The values of the ranges, one after the other; ranges that reach past the end are cut.
     pub(super) fn gather(&self, ranges: &[std::ops::Range<usize>]) -> Self {
         fn pick<T: Clone>(vector: &[T], ranges: &[std::ops::Range<usize>]) -> Vec<T> {
@@ -173,6 +189,14 @@ mod tests {
         let texts = Values::from(vec![String::from("a")]);
         assert_eq!(texts.array_type(), ArrayType::String);
         assert_eq!(texts.to_f64(), None);
+    }
+
+    #[test]
+    fn values_of_the_same_type_are_appended() {
+        let mut values = Values::from(vec![1u8, 2]);
+        assert!(values.append(vec![3u8].into()));
+        assert!(!values.append(vec![4i8].into()));
+        assert_eq!(values, vec![1u8, 2, 3].into());
     }
 
     #[test]

@@ -146,7 +146,7 @@ pub struct LineArguments {
     /// Greatest distance of a segment or a triangle from the contour, in the mesh's unit
     /// [default: 1e-5 of the bounding box's diagonal; for surfaces 1e-3]
     ///
-    /// Steps of a series and pieces of a .pvtp have each the default of their own box.
+    /// Steps of a series have each the default of their own box.
     #[arg(long, value_name = "T", value_parser = positive)]
     pub tolerance: Option<f64>,
 

@@ -481,6 +481,17 @@ pub struct ContourArguments {
     #[command(flatten)]
     pub output_options: OutputArguments,
 
+    /// Take the pieces of a .pvtu or .pvtp one at a time: the memory is that of the largest of
+    /// them, and of the contours
+    ///
+    /// The contours are the same. Each piece is read twice: first for the range and the size of the
+    /// whole. For a .pvtp this is done anyway, and there the memory does not depend on the contours
+    /// either. Of a series (.pvd) choose a step, with --time.
+    #[arg(
+        long, help_heading = "Running", conflicts_with_all = ["triangles", "merge_points"]
+    )]
+    pub stream: bool,
+
     #[command(flatten)]
     pub running: RunArguments,
 }

@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use vtu2contour::contour::Levels;
 use vtu2contour::contour::surface::Fineness;
-use vtu2contour::filter::{ContourOptions, Contoured, Extent, Stage, contour_owned, preview};
+use vtu2contour::filter::{
+    ContourOptions, Contoured, Extent, FilterError, Stage, contour_owned, preview, renumber_cells,
+};
 use vtu2contour::vtk::{AtomicFile, PvdEntry, UnstructuredGrid};
 
 use super::arguments::ContourArguments;
+use super::cell_numbers::CellCounter;
 use super::input::{Arrays, Input, Part};
 use super::messages::Messages;
-use super::output::{Format, Output, Place, listed_file};
+use super::output::{Format, Output, listed_file};
 use super::stats::{Clock, Stats, Step};
 use super::warnings::Warnings;
 
@@ -44,7 +47,7 @@ fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messa
         clock,
         warnings: Warnings::default(),
         stats: Stats::default(),
-        cells: 0,
+        counter: input.whole().filter(|_| format.joins_pieces()).map(CellCounter::new),
         nothing: None,
     };
     let result = job.run(&mut output);
@@ -59,14 +62,20 @@ fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messa
 fn open(arguments: &ContourArguments, format: Format) -> Result<Input> {
     let time = arguments.scalars.time;
     let stream = arguments.stream;
-    if stream && !format.joins_pieces() && format != Format::Pvtp {
-        bail!("--stream is for .vtp, .vtu and .pvtp: leave it out, or write one of these");
-    }
     let input = Input::open(arguments.input(), time, stream || format == Format::Pvtp)?;
+    let (path, count) = (arguments.input().display(), input.parts.len());
     if !input.is_series() || !input.is_several() || format == Format::Pvd {
+        if stream && input.is_series() {
+            bail!(
+                "'{path}' is a series, of which files are taken one at a time: --stream is for the \
+                 pieces of one, with --time T and -o NAME.vtp"
+            );
+        }
+        if stream && !format.joins_pieces() && format != Format::Pvtp {
+            bail!("--stream is for .vtp, .vtu and .pvtp: leave it out, or write one of these");
+        }
         return Ok(input);
     }
-    let (path, count) = (arguments.input().display(), input.parts.len());
     match time {
         None => bail!(
             "'{path}' is a series of {count} files: write a series, with -o NAME.pvd, or choose a \
@@ -86,8 +95,8 @@ struct Job<'a> {
     clock: Clock,
     warnings: Warnings,
     stats: Stats,
-    /// How many cells the parts so far have.
-    cells: usize,
+    /// Counts the cells of pieces, of which the contours are numbered as those of the whole.
+    counter: Option<CellCounter>,
     /// Why the first of the parts without anything to contour has nothing.
     nothing: Option<anyhow::Error>,
 }
@@ -102,7 +111,10 @@ impl Job<'_> {
             self.contour_part(place, part, output)?;
         }
         self.clock.next(Step::Write);
-        output.write_whole()?;
+        for array in output.write_joined()? {
+            let text = format!("array '{array}' left out: it is not alike in all pieces");
+            self.warnings.add(None, &text);
+        }
         if self.stats.is_empty() {
             let all_empty = || anyhow!("nothing to contour: every piece is empty");
             return Err(self.nothing.take().unwrap_or_else(all_empty));
@@ -125,8 +137,9 @@ impl Job<'_> {
         self.clock.next(Step::Range);
         let (mut range, mut extent) = (None, Extent::default());
         for (place, part) in self.input.parts.iter().enumerate() {
-            self.stage(place, "looking for the range");
-            let grid = self.input.read(part, Arrays::Needed(&self.options))?.data;
+            self.stage(place, "looking for range and size");
+            let arrays = if needs_range { Arrays::Needed(&self.options) } else { Arrays::OfCells };
+            let grid = self.input.read(part, arrays)?.data;
             let found = match needs_range {
                 true => preview(&grid, &self.options).map(|found| {
                     range = Some(joined(range, found.range));
@@ -134,10 +147,16 @@ impl Job<'_> {
                 }),
                 false => Extent::of_grid(&grid, &self.options),
             };
+            let found = match found {
+                // cells without values count as well
+                Err(error) if error.is_nothing_to_contour() => {
+                    Extent::of_grid(&grid, &self.options)
+                }
+                found => found,
+            };
             match found {
                 Ok(found) => extent = extent.joined(found),
                 Err(_) if grid.types.is_empty() => {}
-                Err(error) if error.is_nothing_to_contour() => {}
                 Err(error) => return Err(self.input.explained(part, &error)),
             }
         }
@@ -156,19 +175,18 @@ impl Job<'_> {
         let name = self.input.name(part);
         loaded.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
         let entry = self.entry(part, &loaded.data);
-        let first_cell = self.cells;
-        self.cells += loaded.data.types.len();
-        let Some(contoured) = self.contour(place, part, loaded.data)? else { return Ok(()) };
+        let numbers = self.counter.as_mut().map(|counter| counter.count(&loaded.data.types));
+        let Some(mut contoured) = self.contour(place, part, loaded.data)? else { return Ok(()) };
+        if let Some(numbers) = numbers {
+            renumber_cells(&mut contoured.poly_data, |cell| numbers.in_whole(cell));
+        }
         self.clock.next(Step::Write);
         self.stage(place, "writing");
         let report = &contoured.report;
         report.warnings.iter().for_each(|text| self.warnings.add(name.as_deref(), text));
         self.messages.detail(&described(&contoured, name.as_deref()));
         self.stats.add(&entry, &contoured);
-        let left_out = output.add(Place { index: place, first_cell }, &entry, contoured)?;
-        let unlike = |name| format!("array '{name}' left out: it is not alike in all pieces");
-        left_out.into_iter().for_each(|array| self.warnings.add(name.as_deref(), &unlike(array)));
-        Ok(())
+        output.add(place, &entry, contoured)
     }
 
     /// The contours of a part; nothing if it holds nothing to contour, but others may.
@@ -191,6 +209,8 @@ impl Job<'_> {
         };
         match contour_owned(grid, &self.options, &mut progress) {
             Ok(contoured) => Ok(Some(contoured)),
+            // the pieces that own the cells contour them
+            Err(FilterError::OnlyGhosts) if self.input.is_in_pieces() => Ok(None),
             Err(error) if several && (error.is_nothing_to_contour() || is_empty) => {
                 self.warnings.add(self.input.name(part).as_deref(), &error.to_string());
                 self.nothing.get_or_insert(self.input.explained(part, &error));
@@ -205,7 +225,7 @@ impl Job<'_> {
         let time_value = || grid.field_data.get("TimeValue")?.component(0)?.first().copied();
         let time = match self.input.is_series() {
             true => part.entry.time,
-            false => time_value(),
+            false => part.entry.time.or_else(time_value),
         };
         PvdEntry { time, ..part.entry.clone() }
     }

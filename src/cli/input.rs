@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
-use vtu2contour::filter::{ContourOptions, FilterError, needed_arrays};
+use vtu2contour::filter::{ContourOptions, FilterError, arrays_of_cells, needed_arrays};
 use vtu2contour::vtk::{
-    AnyFile, Description, Loaded, PvdEntry, PvdFile, Selection, UnstructuredGrid, VtkError,
+    AnyFile, Attributes, Description, Loaded, PvdEntry, PvdFile, Selection, UnstructuredGrid,
+    VtkError,
 };
 
 use super::arguments::Time;
@@ -19,9 +20,17 @@ pub struct Input {
     /// The parts, at least one.
     pub parts: Vec<Part>,
     /// What all pieces have, where they are read one at a time.
-    whole: Option<Description>,
+    whole: Option<Whole>,
     /// What people should know about the file as a whole.
     pub warnings: Vec<String>,
+}
+
+/// What the pieces of a list are part of.
+struct Whole {
+    /// The arrays that all of them have.
+    description: Description,
+    /// The field data: of the list, or of the first piece that has any.
+    field_data: Attributes,
 }
 
 /// One grid of an input.
@@ -39,6 +48,8 @@ pub enum Arrays<'a> {
     All,
     /// Those that contouring needs.
     Needed(&'a ContourOptions),
+    /// Those that decide where cells are.
+    OfCells,
 }
 
 impl Input {
@@ -77,15 +88,35 @@ impl Input {
             self.series = Some(std::mem::replace(&mut self.path, path));
             self.file = file;
         }
-        if matches!(self.file, AnyFile::Pvtu(_) | AnyFile::Pvtp(_)) {
-            self.parts = parts_of(self.file.piece_paths().iter().map(|path| lone(path)));
+        if !matches!(self.file, AnyFile::Pvtu(_) | AnyFile::Pvtp(_)) {
+            return Ok(());
         }
-        if !self.is_series() {
-            let whole = self.file.description()?;
-            self.warnings.clone_from(&whole.warnings);
-            self.whole = Some(whole);
-        }
+        let time = self.parts.first().and_then(|step| step.entry.time);
+        let piece = |path: &PathBuf| PvdEntry { time, ..lone(path) };
+        self.parts = parts_of(self.file.piece_paths().iter().map(piece));
+        let description = self.file.description()?;
+        self.warnings.clone_from(&description.warnings);
+        let field_data = self.field_data(&description)?;
+        self.whole = Some(Whole { description, field_data });
         Ok(())
+    }
+
+    /// The field data of pieces.
+    fn field_data(&self, whole: &Description) -> Result<Attributes, VtkError> {
+        if !whole.field_arrays.is_empty() {
+            for index in 0..self.parts.len() {
+                let piece = self.file.read_piece(index, &Selection::none())?.data;
+                if !piece.field_data.is_empty() {
+                    return Ok(piece.field_data);
+                }
+            }
+        }
+        Ok(Attributes::new())
+    }
+
+    /// What all pieces have, where they are read one at a time.
+    pub fn whole(&self) -> Option<&Description> {
+        self.whole.as_ref().map(|whole| &whole.description)
     }
 
     /// The only part.
@@ -157,12 +188,16 @@ impl Input {
         match (&self.file, &self.whole) {
             (AnyFile::Pvd(series), _) => read_file(&series.open_entry(&part.entry)?, arrays),
             (file, None) => read_file(file, arrays),
-            (file, Some(whole)) => {
+            (file, Some(Whole { description, field_data })) => {
                 let selection = match arrays {
-                    Arrays::All => Selection::all_of(whole),
-                    Arrays::Needed(options) => needed_arrays(options, whole),
+                    Arrays::All => Selection::all_of(description),
+                    Arrays::Needed(options) => needed_arrays(options, description),
+                    Arrays::OfCells => arrays_of_cells(description),
                 };
-                file.read_piece(part.index, &selection)
+                let mut piece = file.read_piece(part.index, &selection)?;
+                description.give_roles(&mut piece.data);
+                piece.data.field_data.clone_from(field_data);
+                Ok(piece)
             }
         }
     }
@@ -195,6 +230,7 @@ fn read_file(file: &AnyFile, arrays: Arrays) -> Result<Loaded<UnstructuredGrid>,
     match arrays {
         Arrays::All => file.read(&Selection::All),
         Arrays::Needed(options) => file.read(&needed_arrays(options, &file.description()?)),
+        Arrays::OfCells => file.read(&arrays_of_cells(&file.description()?)),
     }
 }
 

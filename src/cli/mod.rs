@@ -4,6 +4,7 @@
 //! 2 wrong usage.
 
 mod arguments;
+mod cell_numbers;
 mod contour;
 mod csv;
 mod info;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use vtu2contour::filter::{Contoured, picture, renumber_cells};
+use vtu2contour::filter::{Contoured, picture};
 use vtu2contour::vtk::{
     AtomicFile, ClosedFile, Declaration, OutputFolder, PolyData, PvdEntry, VtkError, WriteOptions,
     write_pvd_to, write_pvtp_to, write_vtp_to, write_vtu_to,
@@ -58,15 +58,6 @@ impl Format {
     }
 }
 
-/// Which part of the input contours are of.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    /// Its number among the parts.
-    pub index: usize,
-    /// How many cells those before it have.
-    pub first_cell: usize,
-}
-
 /// Output that is being written. All its files appear together, or none of them.
 pub struct Output {
     format: Format,
@@ -75,8 +66,8 @@ pub struct Output {
     mesh: bool,
     /// The file of the output's name, until something is in it.
     main: AtomicFile,
-    /// The contours of all parts so far, where they become one.
-    whole: Option<PolyData>,
+    /// The contours of the parts so far, where they become one.
+    parts: Vec<PolyData>,
     entries: Vec<PvdEntry>,
     files: Vec<ClosedFile>,
     /// What the pieces of a `.pvtp` have.
@@ -96,7 +87,7 @@ impl Output {
             options,
             mesh,
             main: AtomicFile::create(path)?,
-            whole: None,
+            parts: Vec::new(),
             entries: Vec::new(),
             files: Vec::new(),
             declaration: None,
@@ -104,46 +95,28 @@ impl Output {
         })
     }
 
-    /// Adds the contours of a part of the input. Returns the names of arrays that are left out, as
-    /// they are not alike in all parts.
-    pub fn add(
-        &mut self,
-        place: Place,
-        from: &PvdEntry,
-        contoured: Contoured,
-    ) -> Result<Vec<String>> {
+    /// Adds the contours of the part `index` of the input.
+    pub fn add(&mut self, index: usize, from: &PvdEntry, contoured: Contoured) -> Result<()> {
         match self.format {
             Format::Svg => self.draw(&contoured)?,
-            Format::Vtp | Format::Vtu => {
-                return Ok(self.append(place.first_cell, contoured.poly_data));
-            }
-            _ => self.add_listed(place.index, from, &contoured.poly_data)?,
+            Format::Vtp | Format::Vtu => self.parts.push(contoured.poly_data),
+            Format::Pvtp | Format::Pvd => self.add_listed(index, from, &contoured.poly_data)?,
         }
-        Ok(Vec::new())
+        Ok(())
     }
 
-    fn append(&mut self, first_cell: usize, mut data: PolyData) -> Vec<String> {
-        if first_cell > 0 {
-            renumber_cells(&mut data, first_cell);
+    /// Writes the parts that become one. Returns the names of arrays that are left out, as they are
+    /// not alike in all.
+    pub fn write_joined(&mut self) -> Result<Vec<String>, VtkError> {
+        if self.parts.is_empty() {
+            return Ok(Vec::new());
         }
-        match &mut self.whole {
-            Some(whole) => whole.append(data),
-            None => {
-                self.whole = Some(data);
-                Vec::new()
-            }
+        let (data, left_out) = PolyData::joined(std::mem::take(&mut self.parts));
+        match self.format {
+            Format::Vtu => write_vtu_to(&mut self.main, &data.into_grid(), self.options)?,
+            _ => write_vtp_to(&mut self.main, &data, self.options)?,
         }
-    }
-
-    /// Writes what is one file of all parts.
-    pub fn write_whole(&mut self) -> Result<(), VtkError> {
-        match (self.format, self.whole.take()) {
-            (Format::Vtu, Some(data)) => {
-                write_vtu_to(&mut self.main, &data.into_grid(), self.options)
-            }
-            (_, Some(data)) => write_vtp_to(&mut self.main, &data, self.options),
-            (_, None) => Ok(()),
-        }
+        Ok(left_out)
     }
 
     /// Writes the lines as a picture.

@@ -19,9 +19,10 @@ pub struct Stats {
     /// Places of the levels that have lines or surfaces.
     #[serde(skip)]
     drawn: BTreeSet<usize>,
-    /// Where the parts' gradients came from.
+    /// The arrays that the parts' gradients came from, on triangles and in tetrahedra; nothing
+    /// for other gradients.
     #[serde(skip)]
-    gradients: BTreeSet<String>,
+    gradients: [BTreeSet<Option<String>>; 2],
     #[serde(flatten)]
     all: Counts,
     seconds: Seconds,
@@ -163,7 +164,12 @@ impl Stats {
         } else {
             self.all += &counts;
         }
-        self.gradients.insert(contoured.report.gradient.to_string());
+        for (all, origin) in self.gradients.iter_mut().zip(&contoured.report.gradients) {
+            all.extend(origin.as_ref().map(|origin| match origin {
+                GradientOrigin::Array(name) => Some(name.clone()),
+                _ => None,
+            }));
+        }
         self.drawn.extend(contoured.lines.lines.iter().map(|line| line.level));
         let surfaces = contoured.surface.level_triangles.iter().enumerate();
         self.drawn.extend(surfaces.filter(|(_, range)| !range.is_empty()).map(|(level, _)| level));
@@ -188,13 +194,13 @@ impl Stats {
 
     /// What people should know about the gradients, if the parts are pieces of a whole.
     pub fn gradient_warning(&self) -> Option<String> {
-        (self.gradients.len() > 1).then(|| {
-            let origins = Vec::from_iter(self.gradients.iter().map(String::as_str)).join(", ");
-            format!(
-                "the gradient is not the same in all pieces ({origins}): contours may not meet where \
-                 pieces do; --gradient NAME takes one array in all"
-            )
-        })
+        let unlike = self.gradients.iter().find(|arrays| arrays.len() > 1)?;
+        let names = unlike.iter().flatten().map(|name| format!("'{name}'"));
+        Some(format!(
+            "{} does not fit the values of all pieces, and is not taken as the gradient everywhere: \
+             contours may not meet where pieces do; --gradient takes it everywhere",
+            Vec::from_iter(names).join(" or ")
+        ))
     }
 
     /// Writes all of it, and the times of the job.

@@ -60,6 +60,9 @@ pub enum FilterError {
     #[error("no cell holds a finite value of '{name}': there is nothing to contour")]
     NoValues { name: String },
 
+    #[error("all cells are ghosts, which belong to other processes: there is nothing to contour")]
+    OnlyGhosts,
+
     #[error(
         "nothing to contour: the grid has {cells}, and only two- and three-dimensional cells are contoured{}",
         if left_out.total() == 0 { String::new() } else { format!("; left out: {left_out}") }
@@ -162,6 +165,6 @@ impl FilterError {
     /// Whether the grid has nothing that could hold a contour. One of several grids may be
     /// so; for a single one it is an error.
     pub fn is_nothing_to_contour(&self) -> bool {
-        matches!(self, Self::NoCells { .. } | Self::NoValues { .. })
+        matches!(self, Self::NoCells { .. } | Self::NoValues { .. } | Self::OnlyGhosts)
     }
 }

@@ -98,6 +98,7 @@ impl<'a> Interpolant<'a> {
         Report {
             label: solution.label.clone(),
             gradient: solution.gradient_origin(),
+            gradients: solution.gradient_origins(),
             triangles: solution.triangles.as_ref().map_or(0, Domain::count),
             tetrahedra: solution.tetrahedra.as_ref().map_or(0, Domain::count),
             left_out: solution.left_out.clone(),

@@ -116,7 +116,10 @@ impl Interpolation {
         diagonal: f64,
     ) -> Result<Self, FilterError> {
         let ranges = [triangles.as_ref().map(|i| i.range), tetrahedra.as_ref().map(|i| i.range)];
-        let no_values = || FilterError::NoValues { name: solution.label.clone() };
+        let no_values = || match solution.has_only_ghosts() {
+            true => FilterError::OnlyGhosts,
+            false => FilterError::NoValues { name: solution.label.clone() },
+        };
         let range = joined(ranges).ok_or_else(no_values)?;
         let warnings = warnings(solution, ranges);
         Ok(Self { triangles, tetrahedra, range, diagonal, warnings })

@@ -58,7 +58,7 @@ pub use interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles};
 pub use known_pde::KnownPde;
 pub use level_warning::level_warning;
 pub use monitor::{MonitorOptions, Monitored, MonitoredGrid, monitor};
-pub use needed_arrays::needed_arrays;
+pub use needed_arrays::{arrays_of_cells, needed_arrays};
 pub use options::{ContourOptions, DEFAULT_SURFACE_TOLERANCE, DEFAULT_TOLERANCE, InterpolantKind};
 pub use output::{
     ORIGINAL_CELLS, Output, OutputOptions, OutputPoint, OutputPoints, renumber_cells,

@@ -45,6 +45,18 @@ pub fn needed_arrays(options: &ContourOptions, file: &Description) -> Selection 
     Selection::AtMost { points: points.map(names).collect(), cells: cells.map(names).collect() }
 }
 
+/// The arrays that decide where cells are, whatever is contoured.
+pub fn arrays_of_cells(file: &Description) -> Selection {
+    let with_role = |arrays: &[ArrayInfo], role| -> Vec<String> {
+        let found = arrays.iter().filter(|array| is(array, role));
+        found.map(|array| array.name.clone()).collect()
+    };
+    Selection::AtMost {
+        points: with_role(&file.point_arrays, AttributeKind::RationalWeights),
+        cells: with_role(&file.cell_arrays, AttributeKind::HigherOrderDegrees),
+    }
+}
+
 /// The names between the commas of one such as `ux,uy`.
 fn parts(name: &str) -> Vec<String> {
     name.split(',').map(|part| part.trim().to_owned()).collect()

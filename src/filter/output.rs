@@ -188,12 +188,11 @@ impl Output {
     }
 }
 
-/// Numbers the cells that contours of a piece come from as those of the whole, in which so many
-/// are in the pieces before.
-pub fn renumber_cells(contours: &mut PolyData, before: usize) {
+/// Gives the cells that contours of a piece come from the numbers that they have in the whole.
+pub fn renumber_cells(contours: &mut PolyData, in_whole: impl Fn(i64) -> i64) {
     for data in [&mut contours.point_data, &mut contours.cell_data] {
         if let Some(DataArray { values: Values::I64(cells), .. }) = data.get(ORIGINAL_CELLS) {
-            let cells: Vec<i64> = cells.iter().map(|cell| cell + before as i64).collect();
+            let cells: Vec<i64> = cells.iter().map(|&cell| in_whole(cell)).collect();
             data.push(DataArray::new(ORIGINAL_CELLS, 1, cells));
         }
     }

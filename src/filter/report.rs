@@ -12,8 +12,10 @@ use crate::simplices::{CellCounts, LeftOut};
 pub struct Report {
     /// What was contoured, such as `u` or `|velocity|`.
     pub label: String,
-    /// Where the gradient came from.
+    /// Where the gradient came from: in solids, if there are any.
     pub gradient: GradientOrigin,
+    /// Where it came from on triangles and in tetrahedra, where there are any.
+    pub gradients: [Option<GradientOrigin>; 2],
     /// How many triangles there were.
     pub triangles: usize,
     /// How many tetrahedra there were.

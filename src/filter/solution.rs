@@ -137,11 +137,23 @@ impl Solution<'_> {
         used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
     }
 
+    /// Whether all cells belong to other processes.
+    pub fn has_only_ghosts(&self) -> bool {
+        self.triangles.as_ref().is_none_or(Domain::has_only_ghosts)
+            && self.tetrahedra.as_ref().is_none_or(Domain::has_only_ghosts)
+    }
+
     /// Where the gradient came from: in solids, if there are any.
     pub fn gradient_origin(&self) -> GradientOrigin {
-        let in_triangles = self.triangles.as_ref().map(|domain| &domain.gradients.origin);
+        let [in_triangles, in_tetrahedra] = self.gradient_origins();
+        in_tetrahedra.or(in_triangles).unwrap_or(GradientOrigin::Unused)
+    }
+
+    /// Where it came from on triangles and in tetrahedra, where there are any.
+    pub fn gradient_origins(&self) -> [Option<GradientOrigin>; 2] {
+        let on_triangles = self.triangles.as_ref().map(|domain| &domain.gradients.origin);
         let in_tetrahedra = self.tetrahedra.as_ref().map(|domain| &domain.gradients.origin);
-        in_tetrahedra.or(in_triangles).cloned().unwrap_or(GradientOrigin::Unused)
+        [on_triangles, in_tetrahedra].map(Option::<&_>::cloned)
     }
 
     /// What people should know about the PDE's parameters, a line each.
@@ -203,6 +215,11 @@ impl<const CORNERS: usize> Domain<'_, CORNERS> {
     /// Leaves out the cells of other processes; returns how many simplices that are.
     pub fn exclude_ghosts(&self, ranges: &mut CellRanges) -> usize {
         if self.ghosts.is_none() { 0 } else { ranges.exclude(|simplex| self.is_ghost(simplex)) }
+    }
+
+    /// Whether all simplices belong to other processes.
+    pub fn has_only_ghosts(&self) -> bool {
+        self.ghosts.as_ref().is_some_and(|ghosts| ghosts.iter().all(|&is_ghost| is_ghost))
     }
 
     /// Whether a simplex is one of another process.

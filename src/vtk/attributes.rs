@@ -2,6 +2,7 @@
 
 use super::data_array::DataArray;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// The roles an array of points or cells can be given in VTK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -133,33 +134,57 @@ impl Attributes {
         Self { arrays, active }
     }
 
-    /// Appends the tuples of another set's arrays to those of the same names. Arrays that are not
-    /// in both, or not of the same type and components, are left out; their names are returned.
-    pub(super) fn append(&mut self, other: Self) -> Vec<String> {
-        let is_known = |array: &DataArray| self.get(&array.name).is_some();
-        let (more, extra): (Vec<_>, Vec<_>) = other.arrays.into_iter().partition(is_known);
-        let mut left_out: Vec<String> = extra.into_iter().map(|array| array.name).collect();
-        let mut more = more.into_iter().map(|array| (array.name.clone(), array)).collect();
-        self.arrays.retain_mut(|array| {
-            let is_appended = append_to(array, &mut more);
-            if !is_appended {
-                left_out.push(array.name.clone());
+    /// The arrays of several sets joined, one set after the other: those that all sets have, of the
+    /// same type and components, in the order and with the roles of the first. Besides the names
+    /// of the others.
+    pub(super) fn joined(sets: Vec<Self>) -> (Self, Vec<String>) {
+        let mut left_out: Vec<String> = Vec::new();
+        let mut sets = sets.into_iter();
+        let first = sets.next().unwrap_or_default();
+        let by_name = |set: Self| set.arrays.into_iter().map(|array| (array.name.clone(), array));
+        let mut others: Vec<HashMap<String, DataArray>> =
+            sets.map(|set| by_name(set).collect()).collect();
+        let mut arrays = Vec::with_capacity(first.arrays.len());
+        for mut array in first.arrays {
+            // a set at a time, so that no array is there twice for long
+            let more = others.iter_mut().map(|set| set.remove(&array.name));
+            let mut more = more.collect::<Vec<_>>().into_iter();
+            if more.all(|more| append_to(&mut array, more)) {
+                arrays.push(array);
+            } else {
+                left_out.push(array.name);
             }
-            is_appended
-        });
-        self.active.retain(|(_, name)| !left_out.contains(name));
-        left_out
+        }
+        left_out.extend(others.into_iter().flat_map(HashMap::into_keys));
+        left_out.sort_unstable();
+        left_out.dedup();
+        let mut active = first.active;
+        active.retain(|(_, name)| !left_out.contains(name));
+        (Self { arrays, active }, left_out)
     }
 
-    /// The arrays, to be changed in place.
-    pub(super) fn iter_mut(&mut self) -> std::slice::IterMut<'_, DataArray> {
-        self.arrays.iter_mut()
+    /// Brings the tuples of all arrays into another order: that of the ranges, one after the other.
+    pub(super) fn reorder(&mut self, order: &[Range<usize>]) {
+        if order.windows(2).all(|pair| pair[0].end == pair[1].start) {
+            return;
+        }
+        for array in &mut self.arrays {
+            let components = array.components;
+            let values = |tuples: &Range<usize>| tuples.start * components..tuples.end * components;
+            let ranges: Vec<_> = order.iter().map(values).collect();
+            array.values = array.values.gather(&ranges);
+        }
+    }
+
+    /// Takes all roles from the arrays.
+    pub(super) fn clear_roles(&mut self) {
+        self.active.clear();
     }
 }
 
-/// Appends the array of the same name, if it is there and of the same shape; says whether.
-fn append_to(array: &mut DataArray, more: &mut HashMap<String, DataArray>) -> bool {
-    let more = more.remove(&array.name).filter(|more| more.components == array.components);
+/// Appends an array, if it is there and of the same shape; says whether.
+fn append_to(array: &mut DataArray, more: Option<DataArray>) -> bool {
+    let more = more.filter(|more| more.components == array.components);
     more.is_some_and(|more| array.values.append(more.values))
 }
 
@@ -199,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn arrays_that_are_alike_are_appended() {
+    fn arrays_that_are_alike_are_joined() {
         let array =
             |name, components, values: &[f64]| DataArray::new(name, components, values.to_vec());
         let mut set: Attributes = [
@@ -213,12 +238,12 @@ mod tests {
         set.set_active(AttributeKind::Vectors, "shape");
         set.set_active(AttributeKind::Scalars, "a");
         let more = ["type", "only there", "shape", "a"].map(|name| array(name, 1, &[3.0]));
-        let mut left_out = set.append(more.into_iter().collect());
-        left_out.sort();
+        let more: Attributes = more.into_iter().collect();
+        let (joined, left_out) = Attributes::joined(vec![set, more.clone(), more]);
         assert_eq!(left_out, ["only here", "only there", "shape", "type"]);
-        let mut expected: Attributes = [array("a", 1, &[1.0, 2.0, 3.0])].into_iter().collect();
+        let mut expected: Attributes = [array("a", 1, &[1.0, 2.0, 3.0, 3.0])].into_iter().collect();
         expected.set_active(AttributeKind::Scalars, "a");
-        assert_eq!(set, expected);
+        assert_eq!(joined, expected);
     }
 
     #[test]

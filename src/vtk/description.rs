@@ -7,6 +7,7 @@ use super::joined_section::JoinedSection;
 use super::piece::PieceCounts;
 use super::pieces::Pieces;
 use super::section::Section;
+use super::unstructured_grid::UnstructuredGrid;
 
 /// What a file holds, known from its head alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,22 @@ impl Description {
     /// The number of points of all pieces.
     pub fn points(&self) -> usize {
         self.pieces.iter().map(|piece| piece.points).sum()
+    }
+
+    /// Gives the arrays of a piece the roles that they have in the whole.
+    pub fn give_roles(&self, piece: &mut UnstructuredGrid) {
+        let sections = [
+            (&self.point_arrays, &mut piece.point_data),
+            (&self.cell_arrays, &mut piece.cell_data),
+        ];
+        for (arrays, data) in sections {
+            data.clear_roles();
+            for array in arrays {
+                array.active.iter().for_each(|&role| {
+                    data.set_active(role, &array.name);
+                });
+            }
+        }
     }
 
     /// The number of cells of all pieces.

@@ -1,5 +1,6 @@
 //! Points, lines and polygons.
 
+use super::array_type::ArrayType;
 use super::attributes::Attributes;
 use super::cell_array::CellArray;
 use super::data_array::DataArray;
@@ -70,34 +71,40 @@ impl PolyData {
         grid
     }
 
-    /// Appends the points, cells and data of another; its points are not merged. Arrays that are
-    /// not alike in both are left out: their names are returned. Field data are those of the
-    /// first that has any.
-    pub fn append(&mut self, other: Self) -> Vec<String> {
-        let cells = cells_by_kind(&self.counts(), &other.counts());
-        let first_point = self.points.tuples();
-        append_points(&mut self.points, other.points);
-        for (own, more) in [
-            (&mut self.verts, &other.verts),
-            (&mut self.lines, &other.lines),
-            (&mut self.polys, &other.polys),
-            (&mut self.strips, &other.strips),
-        ] {
-            own.append_moved(more, first_point);
+    /// The points, cells and data of several, one after the other; points are not merged. Arrays
+    /// that are not alike in all are left out, and their names are returned. Field data are
+    /// those of the first.
+    pub fn joined(mut parts: Vec<Self>) -> (Self, Vec<String>) {
+        match parts.len() {
+            0 => return (Self::new(DataArray::new("Points", 3, Vec::<f64>::new())), Vec::new()),
+            1 => return (parts.remove(0), Vec::new()),
+            _ => {}
         }
-        let mut left_out = self.point_data.append(other.point_data);
-        left_out.extend(self.cell_data.append(other.cell_data));
-        if !cells.is_sorted_by_key(|range| range.start) {
-            for array in self.cell_data.iter_mut() {
-                let values =
-                    cells.iter().map(|c| c.start * array.components..c.end * array.components);
-                array.values = array.values.gather(&values.collect::<Vec<_>>());
-            }
+        let order = by_kind(parts.iter().map(Self::counts));
+        let sizes: Vec<usize> = parts.iter().map(|part| part.points.tuples()).collect();
+        let mut take = |of: fn(&mut Self) -> &mut CellArray| {
+            joined_cells(
+                &parts.iter_mut().map(|p| std::mem::take(of(p))).collect::<Vec<_>>(),
+                &sizes,
+            )
+        };
+        let verts = take(|part| &mut part.verts);
+        let lines = take(|part| &mut part.lines);
+        let polys = take(|part| &mut part.polys);
+        let strips = take(|part| &mut part.strips);
+        let field_data = std::mem::take(&mut parts[0].field_data);
+        let (mut points, mut point_data, mut cell_data) = (Vec::new(), Vec::new(), Vec::new());
+        for part in parts {
+            points.push(part.points);
+            point_data.push(part.point_data);
+            cell_data.push(part.cell_data);
         }
-        if self.field_data.is_empty() {
-            self.field_data = other.field_data;
-        }
-        left_out
+        let points = joined_points(points);
+        let (point_data, mut left_out) = Attributes::joined(point_data);
+        let (mut cell_data, more_left_out) = Attributes::joined(cell_data);
+        left_out.extend(more_left_out);
+        cell_data.reorder(&order);
+        (Self { points, verts, lines, polys, strips, point_data, cell_data, field_data }, left_out)
     }
 
     /// The number of cells of each kind, in the order of cell data.
@@ -111,28 +118,47 @@ impl PolyData {
     }
 }
 
-/// Where the cells of two stand one after the other, in the order of kinds: first all verts, then
-/// all lines, and so on. Kinds that there are none of are left out.
-fn cells_by_kind(first: &[usize; 4], second: &[usize; 4]) -> Vec<Range<usize>> {
-    let (mut next, mut next_of_second) = (0, first.iter().sum());
-    let mut ranges = Vec::with_capacity(8);
-    for (count, more) in first.iter().zip(second) {
-        ranges.extend([next..next + count, next_of_second..next_of_second + more]);
-        next += count;
-        next_of_second += more;
+/// The places of cells that stand part after part, in the order of kinds: first all verts, then
+/// all lines, and so on. `counts` are how many of each kind the parts have.
+pub(super) fn by_kind(counts: impl Iterator<Item = [usize; 4]>) -> Vec<Range<usize>> {
+    let mut ranges: [Vec<Range<usize>>; 4] = Default::default();
+    let mut next = 0;
+    for counts in counts {
+        for (ranges, count) in ranges.iter_mut().zip(counts) {
+            if count > 0 {
+                ranges.push(next..next + count);
+            }
+            next += count;
+        }
     }
-    ranges.retain(|range| !range.is_empty());
-    ranges
+    ranges.concat()
 }
 
-/// Appends points; in double precision if either is.
-fn append_points(points: &mut DataArray, more: DataArray) {
-    if points.array_type() == more.array_type() {
-        points.values.append(more.values);
-    } else {
-        let both = [&*points, &more].map(|array| array.to_f64().unwrap_or_default());
-        points.values = both.concat().into();
+/// Cells of several data sets, of which the numbers of points are given.
+fn joined_cells(parts: &[CellArray], points: &[usize]) -> CellArray {
+    let mut all = CellArray::new();
+    let count = |of: fn(&CellArray) -> usize| parts.iter().map(of).sum();
+    all.reserve(count(CellArray::len), count(|part| part.connectivity().len()));
+    let mut first = 0;
+    for (part, points) in parts.iter().zip(points) {
+        all.append_moved(part, first);
+        first += points;
     }
+    all
+}
+
+/// Points of several data sets; in double precision if any are.
+fn joined_points(parts: Vec<DataArray>) -> DataArray {
+    let is_double = parts.iter().any(|part| part.array_type() == ArrayType::F64);
+    let mut parts = parts.into_iter().map(|part| match part.to_f64() {
+        Some(values) if is_double => DataArray { values: values.into(), ..part },
+        _ => part,
+    });
+    let first = parts.next().unwrap_or_else(|| DataArray::new("Points", 3, Vec::<f64>::new()));
+    parts.fold(first, |mut all, part| {
+        all.values.append(part.values);
+        all
+    })
 }
 
 #[cfg(test)]
@@ -151,27 +177,33 @@ mod tests {
     }
 
     #[test]
-    fn cells_of_a_kind_stand_together_when_others_are_appended() {
+    fn cells_of_a_kind_stand_together_when_parts_are_joined() {
         let single = Values::F32((0..9_u8).map(f32::from).collect());
         let double = Values::F64((0..9_u8).map(f64::from).collect());
-        let mut data = lines_and_a_polygon(single, 1, 10);
-        data.point_data.push(DataArray::new("p", 1, vec![1_i8; 3]));
-        let mut more = lines_and_a_polygon(double, 2, 20);
-        more.field_data.push(DataArray::new("TimeValue", 1, vec![0.5]));
-        assert_eq!(data.append(more), ["p"]);
-        let numbers = [10, 20, 21, 11, 22].map(|n| [n, -n]).concat();
+        let mut first = lines_and_a_polygon(single.clone(), 1, 10);
+        first.point_data.push(DataArray::new("p", 1, vec![1_i8; 3]));
+        first.field_data.push(DataArray::new("TimeValue", 1, vec![0.5]));
+        let second = lines_and_a_polygon(double, 2, 20);
+        let third = lines_and_a_polygon(single, 1, 30);
+        let field_data = first.field_data.clone();
+        let (data, left_out) = PolyData::joined(vec![first, second, third]);
+        assert_eq!(left_out, ["p"]);
+        let numbers = [10, 20, 21, 30, 11, 22, 31].map(|n| [n, -n]).concat();
         assert_eq!(data.cell_data.get("n").unwrap().values, Values::I64(numbers));
-        assert_eq!(data.lines.connectivity(), [0, 1, 3, 4, 3, 4]);
-        assert_eq!(data.polys.connectivity(), [2, 1, 0, 5, 4, 3]);
-        let points = (0..18_u8).map(|n| f64::from(n % 9)).collect();
+        assert_eq!(data.lines.connectivity(), [0, 1, 3, 4, 3, 4, 6, 7]);
+        assert_eq!(data.polys.connectivity(), [2, 1, 0, 5, 4, 3, 8, 7, 6]);
+        let points = (0..27_u8).map(|n| f64::from(n % 9)).collect();
         assert_eq!(data.points.values, Values::F64(points));
-        assert_eq!(data.field_data.len(), 1);
-        // those of one kind only
-        let mut data = PolyData::new(DataArray::new("Points", 3, vec![0.0_f64; 6]));
-        data.lines.push(&[0, 1]);
-        data.cell_data.push(DataArray::new("n", 1, vec![7_u8]));
-        assert!(data.append(data.clone()).is_empty());
-        assert_eq!(data.cell_data.get("n").unwrap().values, Values::U8(vec![7, 7]));
+        assert_eq!(data.field_data, field_data);
+    }
+
+    #[test]
+    fn nothing_and_one_part_are_joined() {
+        let points = Values::F32((0..9_u8).map(f32::from).collect());
+        let data = lines_and_a_polygon(points, 2, 0);
+        assert_eq!(PolyData::joined(vec![data.clone()]), (data, Vec::new()));
+        let (nothing, left_out) = PolyData::joined(Vec::new());
+        assert_eq!((nothing.points.tuples(), nothing.cell_count(), left_out.len()), (0, 0, 0));
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! Reading polygonal data (`.vtp`).
 
-use super::attributes::Attributes;
 use super::cell_array::CellArray;
 use super::cell_reader::{CELLS, ListSource, read_lists};
 use super::description::{Description, Sections};
@@ -8,11 +7,10 @@ use super::error::VtkError;
 use super::file_bytes::FileBytes;
 use super::piece::{Piece, PieceCounts};
 use super::pieces::Pieces;
-use super::poly_data::PolyData;
+use super::poly_data::{PolyData, by_kind};
 use super::reading::{Loaded, Reading};
 use super::selection::Selection;
 use super::xml_file::{Budget, XmlFile};
-use std::ops::Range;
 use std::path::Path;
 
 /// An open `.vtp` file. Nothing is decoded before it is asked for.
@@ -106,7 +104,9 @@ pub(super) fn read_surfaces(
         [cells(VERTS)?, cells(LINES)?, cells(POLYS)?, cells(STRIPS)?];
     let warnings = reading.warnings.clone();
     let mut decoded = reading.decode()?;
-    sort_cell_data(&mut decoded.cell_data, &pieces.list);
+    // from the order of the pieces to that of the joined data
+    let counts = |piece: &Piece<'_>| [VERTS, LINES, POLYS, STRIPS].map(|(_, n)| n(&piece.counts));
+    decoded.cell_data.reorder(&by_kind(pieces.list.iter().map(counts)));
     Ok(Loaded {
         data: PolyData {
             points: decoded.points,
@@ -135,34 +135,4 @@ fn read_cells(
         bound: piece.counts.points,
     });
     read_lists(CELLS, &sources.collect::<Vec<_>>(), budget)
-}
-
-/// Brings cell data from the order of the pieces to that of the joined data: all verts,
-/// then all lines, polys and strips.
-fn sort_cell_data(cell_data: &mut Attributes, pieces: &[Piece<'_>]) {
-    let order = joined_order(pieces);
-    if order.windows(2).all(|pair| pair[0].end == pair[1].start) {
-        return;
-    }
-    for array in cell_data.iter_mut() {
-        let values =
-            |cells: &Range<usize>| cells.start * array.components..cells.end * array.components;
-        let ranges: Vec<_> = order.iter().map(values).collect();
-        array.values = array.values.gather(&ranges);
-    }
-}
-
-/// The cells of the joined data, as ranges in the order of the pieces.
-fn joined_order(pieces: &[Piece<'_>]) -> Vec<Range<usize>> {
-    let mut by_kind: [Vec<Range<usize>>; 4] = Default::default();
-    let mut start = 0;
-    for piece in pieces {
-        for (ranges, (_, count)) in by_kind.iter_mut().zip([VERTS, LINES, POLYS, STRIPS]) {
-            let end = start + count(&piece.counts);
-            ranges.push(start..end);
-            start = end;
-        }
-    }
-    let filled = |range: &Range<usize>| !range.is_empty();
-    by_kind.into_iter().flatten().filter(filled).collect()
 }

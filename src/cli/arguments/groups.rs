@@ -63,8 +63,9 @@ pub struct LevelArguments {
 
     /// So many levels, equally spaced strictly inside the range
     ///
-    /// Steps of a series and pieces of a .pvtp have the same levels, inside the range of
-    /// all of them. That range is found by reading each twice: --range or --value saves it.
+    /// Steps of a series, and pieces that are taken one at a time, have the same levels, inside the
+    /// range of all of them. For that the cubics of each are made twice: --range or --value saves
+    /// it.
     #[arg(
         short = 'n', long, value_name = "N", default_value_t = 10, conflicts_with = "values",
         value_parser = clap::value_parser!(u16).range(1..)

@@ -268,15 +268,20 @@ def triangles(surface: pv.PolyData) -> Counter:
 
 
 @pytest.mark.skipif(shutil.which("mpiexec") is None, reason="no MPI here")
-@pytest.mark.parametrize("points", [3, 0], ids=["points per side", "tolerance"])
-def test_two_processes_make_the_serial_contour(installed, tmp_path, points):
+@pytest.mark.parametrize(
+    ("points", "ranks"),
+    [(3, 2), (0, 2), (0, 3)],
+    ids=["points per side", "tolerance", "a process without cells"],
+)
+def test_processes_make_the_serial_contour(installed, tmp_path, points, ranks):
     file, output = in_pieces(solid(n=6), tmp_path / "mesh.pvtu"), tmp_path / "out.pvtp"
     root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    mpi = ["mpiexec", *root, "--oversubscribe", "-n", 2, "-x", "PYTHONPATH"]
+    mpi = ["mpiexec", *root, "--oversubscribe", "-n", ranks, "-x", "PYTHONPATH"]
     script = [SCRIPTS / "contour_pieces.py", plugin(installed), file, output, points]
     run(installed, [*mpi, "pvbatch", "--symmetric", *script])
     pieces = [pv.read(path) for path in sorted(tmp_path.glob("out*/*.vtp"))]
-    assert len(pieces) == 2 and all(piece.n_cells > 0 for piece in pieces)
+    pieces = [piece for piece in pieces if piece.n_cells > 0]
+    assert len(pieces) == 2
     serial = vc.contour(solid(n=6), [0.5], scalars="u", nside=points or None)
     assert sum(map(triangles, pieces), Counter()) == triangles(serial)
     union = pv.merge(pieces).clean(tolerance=1e-12)

@@ -10,7 +10,7 @@ use crate::interpolant::TetrahedronCubics;
 use crate::mesh::{TetrahedronFrame, Vector};
 
 /// Triangles whose gradients are computed before they are summed.
-const AT_ONCE: usize = 1 << 16;
+const AT_ONCE: usize = 1 << 13;
 
 /// Triangles that one thread takes at a time.
 const CHUNK: usize = 1 << 8;
@@ -57,16 +57,18 @@ impl SurfaceOutput<'_> {
     /// across their common face differ, the mean over the triangles at the point.
     fn gradients(&self) -> Vec<Vector> {
         let mut sums = vec![(Vector::zeros(), 0.0); self.surface.points.len()];
+        let mut of_corners = vec![[Vector::zeros(); 3]; AT_ONCE.min(self.surface.triangles.len())];
         for (triangles, cells) in
             self.surface.triangles.chunks(AT_ONCE).zip(self.surface.cells.chunks(AT_ONCE))
         {
             // in parallel, and added in their order: the same for any number of threads
-            let of_corners: Vec<[Vector; 3]> = triangles
-                .par_chunks(CHUNK)
-                .zip(cells.par_chunks(CHUNK))
-                .flat_map_iter(|(triangles, cells)| self.gradients_at_corners(triangles, cells))
-                .collect();
-            for (triangle, gradients) in triangles.iter().zip(of_corners) {
+            let chunks = (triangles.par_chunks(CHUNK), cells.par_chunks(CHUNK)).into_par_iter();
+            chunks.zip(of_corners.par_chunks_mut(CHUNK)).for_each(
+                |((triangles, cells), of_corners)| {
+                    self.put_gradients(triangles, cells, of_corners);
+                },
+            );
+            for (triangle, gradients) in triangles.iter().zip(&of_corners) {
                 for (&point, gradient) in triangle.iter().zip(gradients) {
                     if gradient.iter().all(|x| x.is_finite()) {
                         let (sum, count) = &mut sums[point as usize];
@@ -79,32 +81,43 @@ impl SurfaceOutput<'_> {
         sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { sum }).collect()
     }
 
-    /// The gradients at the corners of triangles, by the cubics of their cells; not a number in a
-    /// cell without a volume.
-    fn gradients_at_corners(
+    /// Finds the gradients at the corners of triangles, by the cubics of their cells; not a number in
+    /// a cell without a volume.
+    fn put_gradients(
         &self,
         triangles: &[[u32; 3]],
         cells: &[u32],
-    ) -> impl Iterator<Item = [Vector; 3]> {
+        mut of_corners: &mut [[Vector; 3]],
+    ) {
         let mesh = self.interpolant.mesh();
+        let mut triangles = triangles;
+        let (mut points, mut gradients) = (Vec::new(), Vec::new());
         // a patch's triangles follow one another
-        let patches = cells.chunk_by(|one, next| one == next);
-        let mut rest = triangles;
-        patches.flat_map(move |patch| {
+        for patch in cells.chunk_by(|one, next| one == next) {
             let cell = patch[0] as usize;
             let (frame, cubic) =
                 (TetrahedronFrame::new(mesh.corners(cell)), self.interpolant.cubic(cell));
-            let (own, others) = rest.split_at(patch.len());
-            rest = others;
-            own.iter().map(move |triangle| {
-                triangle.map(|point| {
-                    if frame.is_degenerate() {
-                        return Vector::repeat(f64::NAN);
-                    }
-                    let at = frame.barycentric(&self.surface.points[point as usize].position);
-                    frame.gradient(&cubic.barycentric_gradient(&at))
-                })
-            })
-        })
+            let gradient = |&point: &u32| {
+                if frame.is_degenerate() {
+                    return Vector::repeat(f64::NAN);
+                }
+                let at = frame.barycentric(&self.surface.points[point as usize].position);
+                frame.gradient(&cubic.barycentric_gradient(&at))
+            };
+            let (own, others) = triangles.split_at(patch.len());
+            let (of_own, of_others) = of_corners.split_at_mut(patch.len());
+            (triangles, of_corners) = (others, of_others);
+            // they share points, of which each is asked for once
+            points.clear();
+            points.extend(own.as_flattened());
+            points.sort_unstable();
+            points.dedup();
+            gradients.clear();
+            gradients.extend(points.iter().map(gradient));
+            let at = |point: u32| gradients[points.partition_point(|&other| other < point)];
+            for (triangle, gradients) in own.iter().zip(of_own) {
+                *gradients = triangle.map(at);
+            }
+        }
     }
 }

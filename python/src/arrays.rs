@@ -78,13 +78,10 @@ fn not_contiguous(name: &str) -> PyErr {
     PyValueError::new_err(format!("{name} must be contiguous, in C's order"))
 }
 
-/// Vectors as an array of rows of three.
+/// Vectors as an array of rows of three. Nothing is copied.
 pub fn rows(py: Python, vectors: Vec<Vector>) -> PyResult<Bound<PyArray2<f64>>> {
     let count = vectors.len();
-    // in place where the allocator allows it, which is not so for all
-    let numbers = bytemuck::cast_slice::<Vector, f64>(&vectors).to_vec();
-    drop(vectors);
-    PyArray1::from_vec(py, numbers).reshape([count, 3])
+    PyArray1::from_vec(py, bytemuck::cast_vec::<Vector, f64>(vectors)).reshape([count, 3])
 }
 
 /// An array's values as NumPy's; a list for texts. Nothing is copied.

@@ -79,9 +79,10 @@ pub fn bare_contours(py: Python, output: Output) -> PyResult<Bound<PyDict>> {
     let (offsets, connectivity) = cells(py, &lines);
     result.set_item("line_offsets", offsets)?;
     result.set_item("line_points", connectivity)?;
-    let triangles = PyArray1::from_slice(py, polys.connectivity());
-    result.set_item("triangles", triangles.reshape([polys.len(), 3])?)?;
-    drop((lines, polys));
+    drop(lines);
+    let count = polys.len();
+    let triangles = PyArray1::from_vec(py, polys.into_connectivity());
+    result.set_item("triangles", triangles.reshape([count, 3])?)?;
     let parents = parents.into_iter().map(i64::from);
     result.set_item("cells", PyArray1::from_iter(py, parents))?;
     if options.need_gradients() {

@@ -1,9 +1,8 @@
 //! Contour lines as a part of the output.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
-use super::output::{Output, OutputPoint};
+use super::output::{Output, OutputOptions, OutputPoint};
 use super::resample::Stencil;
 use super::solution::Domain;
 use crate::contour::lines::{ContourLines, LinePoint};
@@ -23,19 +22,17 @@ pub struct LineOutput<'a> {
 impl LineOutput<'_> {
     /// Adds the lines to the output.
     pub fn add_to(&self, output: &mut Output) {
-        let mut numbers = HashMap::new();
+        // where each point is in the output, if it is there
+        let mut numbers: Vec<Option<u32>> = vec![None; self.lines.points.len()];
         for line in &self.lines.lines {
             let places = self.distinct(line.points.clone(), output);
             let mut number = |place: usize| {
                 let point = self.lines.connectivity[place];
-                *numbers.entry(point).or_insert_with(|| {
-                    output.points.push(self.output_point(
-                        point,
-                        line.level,
-                        output.options.need_gradients(),
-                    ));
-                    output.points.len() as i64 - 1
-                })
+                let number = numbers[point as usize].get_or_insert_with(|| {
+                    output.points.push(self.output_point(point, line.level, output.options));
+                    output.points.len() as u32 - 1
+                });
+                i64::from(*number)
             };
             if output.options.segments {
                 for pair in places.windows(2) {
@@ -61,17 +58,19 @@ impl LineOutput<'_> {
         places.filter(|&place| place == first || position(place) != position(place - 1)).collect()
     }
 
-    fn output_point(&self, number: u32, level: usize, with_gradient: bool) -> OutputPoint {
+    fn output_point(&self, number: u32, level: usize, options: OutputOptions) -> OutputPoint {
         let point = &self.lines.points[number as usize];
         let [a, b, c] = self.interpolant.mesh().triangles()[point.cell as usize];
         let [s, t, u] = point.at;
         OutputPoint {
             position: point.position,
             // a triangle has no fourth point: one without weight stands for it
-            stencil: Stencil { points: [a, b, c, c], weights: [s, t, u, 0.0] },
+            stencil: options
+                .data
+                .then_some(Stencil { points: [a, b, c, c], weights: [s, t, u, 0.0] }),
             level: self.lines.levels[level],
             parent: self.domain.parent(point.cell),
-            gradient: with_gradient.then(|| self.gradient(point)),
+            gradient: options.need_gradients().then(|| self.gradient(point)),
         }
     }
 

@@ -182,6 +182,7 @@ impl ContourOptions {
             single: self.single.unwrap_or(false),
             gradients: self.gradients,
             normals: self.normals,
+            data: false,
         }
     }
 
@@ -193,6 +194,7 @@ impl ContourOptions {
             single: self.single.unwrap_or(as_grid),
             gradients: self.gradients,
             normals: self.normals,
+            data: true,
         }
     }
 }

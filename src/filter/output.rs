@@ -17,6 +17,8 @@ pub struct OutputOptions {
     pub gradients: bool,
     /// The unit vector against the gradient, as `Normals`.
     pub normals: bool,
+    /// Whether data of a grid travel along.
+    pub data: bool,
 }
 
 impl OutputOptions {
@@ -39,8 +41,8 @@ pub const ORIGINAL_CELLS: &str = "OriginalCellIds";
 pub struct OutputPoint {
     /// Where it is.
     pub position: Vector,
-    /// The points of the grid around it.
-    pub stencil: Stencil,
+    /// The points of the grid around it, if data travel along; then all points have them.
+    pub stencil: Option<Stencil>,
     /// Its level.
     pub level: f64,
     /// The cell of the grid that holds it.
@@ -54,7 +56,7 @@ pub struct OutputPoint {
 pub struct OutputPoints {
     /// Where each is.
     pub positions: Vec<Vector>,
-    /// The points of the grid around each.
+    /// The points of the grid around each, if data travel along; else none.
     pub stencils: Vec<Stencil>,
     /// The level of each.
     pub levels: Vec<f64>,
@@ -75,10 +77,10 @@ impl OutputPoints {
         self.positions.is_empty()
     }
 
-    /// Makes room for so many more.
-    pub fn reserve(&mut self, count: usize) {
+    /// Makes room for so many more; for points around them if data travel along.
+    pub fn reserve(&mut self, count: usize, with_stencils: bool) {
         self.positions.reserve(count);
-        self.stencils.reserve(count);
+        self.stencils.reserve(if with_stencils { count } else { 0 });
         self.levels.reserve(count);
         self.parents.reserve(count);
     }
@@ -86,7 +88,7 @@ impl OutputPoints {
     /// Adds a point.
     pub fn push(&mut self, point: OutputPoint) {
         self.positions.push(point.position);
-        self.stencils.push(point.stencil);
+        self.stencils.extend(point.stencil);
         self.levels.push(point.level);
         self.parents.push(point.parent);
         self.gradients.extend(point.gradient);

@@ -30,17 +30,20 @@ impl SurfaceOutput<'_> {
     pub fn add_to(&self, output: &mut Output) {
         let first = output.points.len() as i64;
         let gradients = output.options.need_gradients().then(|| self.gradients());
-        output.points.reserve(self.surface.points.len());
+        let with_data = output.options.data;
+        output.points.reserve(self.surface.points.len(), with_data);
+        output.polys.reserve(self.surface.triangles.len(), 3 * self.surface.triangles.len());
+        output.parents.reserve(self.surface.triangles.len());
         for (&level, points) in self.surface.levels.iter().zip(&self.surface.level_points) {
             for number in points.clone() {
                 let point = &self.surface.points[number];
                 let cell = point.cell as usize;
                 output.points.push(OutputPoint {
                     position: point.position,
-                    stencil: Stencil {
+                    stencil: with_data.then(|| Stencil {
                         points: self.interpolant.mesh().tetrahedra()[cell],
                         weights: point.at,
-                    },
+                    }),
                     level,
                     parent: self.domain.parent(point.cell),
                     gradient: gradients.as_ref().map(|all| all[number]),

@@ -97,7 +97,7 @@ impl CellArray {
     }
 
     /// Makes room for exactly that many more lists and values.
-    pub(super) fn reserve(&mut self, lists: usize, values: usize) {
+    pub fn reserve(&mut self, lists: usize, values: usize) {
         self.offsets.reserve_exact(lists);
         self.connectivity.reserve_exact(values);
     }
@@ -118,6 +118,11 @@ impl CellArray {
     /// The lists' indices, one list after the other.
     pub fn connectivity(&self) -> &[i64] {
         &self.connectivity
+    }
+
+    /// The lists' indices, taken out.
+    pub fn into_connectivity(self) -> Vec<i64> {
+        self.connectivity
     }
 
     /// Refuses indices outside `0..count`.

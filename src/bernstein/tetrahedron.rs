@@ -160,13 +160,13 @@ impl TetrahedronCubic {
 
     /// The value at `at`, by de Casteljau's algorithm.
     pub fn value(&self, at: &Barycentric4) -> f64 {
-        dot(&self.slopes(at), at)
+        dot(&self.blossoms(at), at)
     }
 
     /// Derivatives with respect to the four barycentric coordinates, each taken as
     /// an independent variable. The gradient is `Σ ∂p/∂λᵢ ∇λᵢ`.
     pub fn barycentric_gradient(&self, at: &Barycentric4) -> [f64; 4] {
-        self.slopes(at).map(|value| 3.0 * value)
+        self.blossoms(at).map(|value| 3.0 * value)
     }
 
     /// Second derivatives with respect to the barycentric coordinates, taken as
@@ -182,8 +182,9 @@ impl TetrahedronCubic {
         [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
     }
 
-    /// The four coefficients that are left after two steps of de Casteljau.
-    fn slopes(&self, at: &Barycentric4) -> [f64; 4] {
+    /// The blossom at each vertex and twice at a place: what is left after two steps of de
+    /// Casteljau.
+    pub(crate) fn blossoms(&self, at: &Barycentric4) -> [f64; 4] {
         contract(&TO_LINEAR, &contract(&TO_QUADRATIC, &self.coefficients, at), at)
     }
 

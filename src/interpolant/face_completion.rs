@@ -23,11 +23,10 @@
 //! Source: ours.
 
 use arrayvec::ArrayVec;
-use nalgebra::{Cholesky, Matrix4, Vector4};
 use rayon::prelude::*;
 
 use super::hermite::{ascending, quadratic_precision_of};
-use super::limit::{limited, spread};
+use super::limit::limited;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
 use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
@@ -82,8 +81,8 @@ pub(super) fn face_corrections(
         let numbered = corrections[block.clone()].par_iter_mut().zip(block);
         numbered.filter(|(_, face)| is_wanted(face)).for_each(|(correction, face)| {
             let sides = faces.sides(face);
-            let spread = spread(&sides[0].face(mesh), mesh.points(), field);
-            *correction = limited(mean_of_sides(sides, of_side), spread);
+            let wanted = mean_of_sides(sides, of_side);
+            *correction = limited(wanted, &sides[0].face(mesh), mesh.points(), field);
         });
     }
     corrections
@@ -205,12 +204,13 @@ impl FarPoint {
         if !self.is_finite() || at.iter().any(|weight| !weight.is_finite()) {
             return;
         }
-        let continued = start.barycentric_gradient(&at).map(|derivative| derivative / 3.0);
+        let continued = start.blossoms(&at);
+        let third = self.gradient / 3.0;
         let distance = 1.0 + at.iter().map(|weight| weight.abs()).sum::<f64>();
         let weight = distance.powi(-2 * ORDER);
         for (end, corner) in frame.corners().iter().enumerate() {
             if Some(end) != opposite {
-                let known = self.value + self.gradient.dot(&(corner - self.position)) / 3.0;
+                let known = self.value + third.dot(&(corner - self.position));
                 equations.add(weight, &factors(&at, end), known - continued[end]);
             }
         }
@@ -265,53 +265,112 @@ impl NormalEquations {
             let entry = &mut self.matrix[n][n];
             *entry = if known { *entry * (1.0 + ROUNDING) } else { 1.0 };
         }
-        let matrix = Matrix4::from_fn(|i, j| if j <= i { self.matrix[i][j] } else { 0.0 });
-        let Some(factor) = Cholesky::new(matrix) else { return Estimate::default() };
-        let lower = factor.l_dirty();
-        let solution = factor.solve(&Vector4::from(self.right));
-        let variances = variances(lower);
+        let Some(inverse) = Inverse::new(&self.matrix) else { return Estimate::default() };
+        let corrections = inverse.times(&self.right);
+        let variances = inverse.diagonal();
         let weights = [0, 1, 2, 3].map(|n| if known[n] { 1.0 / variances[n] } else { 0.0 });
-        let finite = solution.iter().chain(&weights).all(|x| x.is_finite());
-        if finite {
-            Estimate { corrections: solution.into(), weights }
-        } else {
-            Estimate::default()
-        }
+        let finite = corrections.iter().chain(&weights).all(|x| x.is_finite());
+        if finite { Estimate { corrections, weights } } else { Estimate::default() }
     }
 }
 
-/// The diagonal of the inverse of `L Lᵀ`: the sums of squares of the columns of the inverse of
-/// `L`.
-fn variances(lower: &Matrix4<f64>) -> [f64; 4] {
-    let mut variances = [0.0; 4];
-    for (column, variance) in variances.iter_mut().enumerate() {
-        let mut inverse = [0.0; 4];
-        for row in column..4 {
-            let unit = if row == column { 1.0 } else { 0.0 };
-            let known: f64 = (column..row).map(|n| lower[(row, n)] * inverse[n]).sum();
-            inverse[row] = (unit - known) / lower[(row, row)];
-            *variance += inverse[row] * inverse[row];
+/// The inverse of a symmetric positive matrix, `Nᵀ D N`.
+struct Inverse {
+    /// What is below the diagonal of `N`, row by row: `N` is one on the diagonal, zero above.
+    lower: [f64; 6],
+    /// The diagonal of `D`.
+    diagonal: [f64; 4],
+}
+
+impl Inverse {
+    /// The inverse of a matrix, of which nothing above the diagonal is looked at; nothing if it
+    /// is not positive.
+    ///
+    /// `L D⁻¹ Lᵀ` is the matrix, with `N` the inverse of `L`: written out, for there are many.
+    fn new(matrix: &[[f64; 4]; 4]) -> Option<Self> {
+        let [[a, ..], [b, c, ..], [d, e, f, _], [g, h, i, j]] = *matrix;
+        let first = 1.0 / a;
+        let (l10, l20, l30) = (b * first, d * first, g * first);
+        let (e, h) = (e - l20 * b, h - l30 * b);
+        let second_pivot = c - l10 * b;
+        let second = 1.0 / second_pivot;
+        let (l21, l31) = (e * second, h * second);
+        let i = i - l30 * d - l31 * e;
+        let third_pivot = f - l20 * d - l21 * e;
+        let third = 1.0 / third_pivot;
+        let l32 = i * third;
+        let fourth_pivot = j - l30 * g - l31 * h - l32 * i;
+        let pivots = [a, second_pivot, third_pivot, fourth_pivot];
+        if !pivots.iter().all(|&pivot| pivot > 0.0) {
+            return None;
         }
+        let n20 = l21 * l10 - l20;
+        let n30 = l31 * l10 - l32 * n20 - l30;
+        let n31 = l32 * l21 - l31;
+        let lower = [-l10, n20, -l21, n30, n31, -l32];
+        Some(Self { lower, diagonal: [first, second, third, 1.0 / fourth_pivot] })
     }
-    variances
+
+    /// The product with a vector.
+    fn times(&self, [a, b, c, d]: &[f64; 4]) -> [f64; 4] {
+        let ([n10, n20, n21, n30, n31, n32], [first, second, third, fourth]) =
+            (self.lower, self.diagonal);
+        let x = first * a;
+        let y = second * (n10 * a + b);
+        let z = third * (n20 * a + n21 * b + c);
+        let w = fourth * (n30 * a + n31 * b + n32 * c + d);
+        [x + n10 * y + n20 * z + n30 * w, y + n21 * z + n31 * w, z + n32 * w, w]
+    }
+
+    /// Its diagonal.
+    fn diagonal(&self) -> [f64; 4] {
+        let ([n10, n20, n21, n30, n31, n32], [first, second, third, fourth]) =
+            (self.lower, self.diagonal);
+        [
+            first + n10 * n10 * second + n20 * n20 * third + n30 * n30 * fourth,
+            second + n21 * n21 * third + n31 * n31 * fourth,
+            third + n32 * n32 * fourth,
+            fourth,
+        ]
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Matrix4, Vector4};
     use proptest::prelude::*;
 
     proptest! {
         #[test]
-        fn variances_are_the_inverse_matrix_diagonal(
-            rows in prop::array::uniform16(-1.0..1.0_f64)
+        fn inverses_are_those_of_a_general_matrix(
+            rows in prop::array::uniform16(-1.0..1.0_f64),
+            vector in prop::array::uniform4(-1.0..1.0_f64),
         ) {
             let rows = Matrix4::from_column_slice(&rows);
             let matrix = rows * rows.transpose() + Matrix4::identity() * 0.1;
-            let lower = Cholesky::new(matrix).unwrap().l();
-            let expected = matrix.try_inverse().unwrap().diagonal();
-            for (variance, expected) in variances(&lower).iter().zip(&expected) {
-                prop_assert!((variance - expected).abs() < 1e-10 * expected);
+            let expected = matrix.try_inverse().unwrap();
+            // nothing above the diagonal is looked at
+            let lower = matrix.map_with_location(|row, column, entry| {
+                if column > row { f64::NAN } else { entry }
+            });
+            let inverse = Inverse::new(&lower.transpose().into()).unwrap();
+            let product = Vector4::from(inverse.times(&vector));
+            let size = expected.norm();
+            prop_assert!((product - expected * Vector4::from(vector)).norm() < 1e-10 * size);
+            let diagonal = Vector4::from(inverse.diagonal());
+            prop_assert!((diagonal - expected.diagonal()).norm() < 1e-10 * size);
+        }
+    }
+
+    #[test]
+    fn what_is_not_positive_has_no_inverse() {
+        for wrong in [0.0, -1.0, f64::NAN] {
+            for place in 0..4 {
+                let mut matrix = Matrix4::identity();
+                assert!(Inverse::new(&matrix.into()).is_some());
+                matrix[(place, place)] = wrong;
+                assert!(Inverse::new(&matrix.into()).is_none());
             }
         }
     }

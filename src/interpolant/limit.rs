@@ -18,9 +18,25 @@ use super::hermite::beside;
 use crate::field::Field;
 use crate::mesh::Vector;
 
+/// The correction of the coefficient amid the triangle between three points, no greater than the
+/// spread there; zero if there is none that is finite. The same for any order of the points.
+pub(super) fn limited(
+    correction: f64,
+    points: &[u32; 3],
+    positions: &[Vector],
+    field: &Field,
+) -> f64 {
+    // most are within that of the vertices alone, which is no more
+    let [a, b, c] = points.map(|point| field.values[point as usize]);
+    if correction.abs() <= a.max(b).max(c) - a.min(b).min(c) {
+        return correction;
+    }
+    cut(correction, spread(points, positions, field))
+}
+
 /// The spread of the nine coefficients that values and gradients give on the triangle between
-/// three points: the greatest less the least. The same for any order of the points.
-pub(super) fn spread(points: &[u32; 3], positions: &[Vector], field: &Field) -> f64 {
+/// three points: the greatest less the least.
+fn spread(points: &[u32; 3], positions: &[Vector], field: &Field) -> f64 {
     let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut include = |coefficient: f64| {
         least = least.min(coefficient);
@@ -40,7 +56,7 @@ pub(super) fn spread(points: &[u32; 3], positions: &[Vector], field: &Field) -> 
 }
 
 /// The correction, no greater than the spread; zero if there is none that is finite.
-pub(super) fn limited(correction: f64, spread: f64) -> f64 {
+fn cut(correction: f64, spread: f64) -> f64 {
     if correction.abs() <= spread {
         correction
     } else if spread.is_finite() && !correction.is_nan() {
@@ -56,12 +72,12 @@ mod tests {
 
     #[test]
     fn limits_by_hand() {
-        assert_eq!(limited(0.5, 2.0), 0.5);
-        assert_eq!(limited(-3.0, 2.0), -2.0);
-        assert_eq!(limited(f64::INFINITY, 2.0), 2.0);
-        assert_eq!(limited(1.0, 0.0), 0.0);
-        assert_eq!(limited(f64::NAN, 2.0), 0.0);
-        assert_eq!(limited(1.0, f64::NAN), 0.0);
+        assert_eq!(cut(0.5, 2.0), 0.5);
+        assert_eq!(cut(-3.0, 2.0), -2.0);
+        assert_eq!(cut(f64::INFINITY, 2.0), 2.0);
+        assert_eq!(cut(1.0, 0.0), 0.0);
+        assert_eq!(cut(f64::NAN, 2.0), 0.0);
+        assert_eq!(cut(1.0, f64::NAN), 0.0);
     }
 
     #[test]
@@ -77,5 +93,12 @@ mod tests {
         // the coefficient next to point 2, toward 0 and toward 1
         assert_eq!(of([2.0; 3], [across, across, Vector::z() * 3.0]), 1.0);
         assert_eq!(of([2.0, 2.0, 2.5], [Vector::zeros(); 3]), 0.5);
+        // more than the vertices differ by, and less than the others do
+        let (values, gradients) = ([2.0, 2.0, 2.25], [across, across, Vector::z() * 3.0]);
+        let field = Field { values: &values, gradients: &gradients };
+        for (correction, expected) in [(0.2, 0.2), (-0.7, -0.7), (1.5, 1.0), (-9.0, -1.0)] {
+            assert_eq!(limited(correction, &[0, 1, 2], &points, &field), expected);
+        }
+        assert_eq!(limited(f64::NAN, &[0, 1, 2], &points, &field), 0.0);
     }
 }

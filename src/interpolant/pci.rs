@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::TriangleCubics;
 use super::completion::centre_correction;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
-use super::limit::{limited, spread};
+use super::limit::limited;
 use super::per_cell::PerCell;
 use crate::bernstein::{Barycentric, TriangleCubic};
 use crate::field::Field;
@@ -162,8 +162,9 @@ fn completed(mesh: &TriangleMesh, field: &Field) -> Vec<f64> {
     let centre = |triangle: usize| {
         let start = quadratic_precision(mesh, field, triangle);
         let correction = centre_correction(mesh, field, &edges, triangle, &start);
-        let spread = spread(&mesh.triangles()[triangle], mesh.points(), field);
-        start.coefficients[TriangleCubic::CENTRE] + limited(correction, spread)
+        let points = &mesh.triangles()[triangle];
+        let correction = limited(correction, points, mesh.points(), field);
+        start.coefficients[TriangleCubic::CENTRE] + correction
     };
     (0..mesh.triangles().len()).into_par_iter().map(centre).collect()
 }

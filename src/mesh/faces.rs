@@ -67,8 +67,17 @@ impl Faces {
             blocks.push(block);
             rest = after;
         }
-        blocks.into_par_iter().for_each(|block| {
-            block.sort_unstable_by_key(|side| (side.face(mesh), *side));
+        blocks.into_par_iter().for_each_init(Vec::new, |keyed, block| {
+            keyed.clear();
+            keyed.extend(block.iter().map(|side| {
+                // the least point is the same for all
+                let [_, middle, greatest] = side.face(mesh).map(u64::from);
+                (middle << 32 | greatest, *side)
+            }));
+            keyed.sort_unstable();
+            for (side, (_, sorted)) in block.iter_mut().zip(keyed) {
+                *side = *sorted;
+            }
         });
         Self::numbered(mesh, sides, &ends)
     }

@@ -93,7 +93,9 @@ pub(super) fn hermite_on_edge(
 
 /// The coefficient beside a vertex on an edge that leads away from it.
 pub(super) fn beside(value: f64, gradient: &Vector, edge: &Vector) -> f64 {
-    value + gradient.dot(edge) / 3.0
+    // a division takes as long as all the rest, and this is what is computed most
+    const THIRD: f64 = 1.0 / 3.0;
+    value + gradient.dot(edge) * THIRD
 }
 
 /// The cubic that reproduces quadratics.

@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use super::TriangleCubics;
 use super::completion::centre_correction;
 use super::equation::{Collocation, Equation, Place, Predictor, apply, operator_weights};
+use super::hermite::beside;
 use super::limit::limited;
 use super::per_cell::PerCell;
 use crate::bernstein::{Barycentric, TriangleCubic};
@@ -175,7 +176,7 @@ fn hermite(mesh: &TriangleMesh, field: &Field, triangle: usize, centre: f64) -> 
     let values = points.map(|point| field.values[point]);
     let corners = mesh.corners(triangle);
     let toward = |i: usize, j: usize| {
-        values[i] + field.gradients[points[i]].dot(&(corners[j] - corners[i])) / 3.0
+        beside(values[i], &field.gradients[points[i]], &(corners[j] - corners[i]))
     };
     TriangleCubic::assemble(values, toward, centre)
 }

@@ -157,14 +157,15 @@ impl CellRanges {
         &self,
         vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
     ) -> Option<[f64; 2]> {
-        let values = |cell: usize| {
-            let values = vertices(cell);
-            [Extreme::Minimum, Extreme::Maximum].map(|which| which.best(&values))
-        };
+        let nothing = || [f64::INFINITY, f64::NEG_INFINITY];
         let joined = |a: [f64; 2], b: [f64; 2]| {
-            [Extreme::Minimum.better(a[0], b[0]), Extreme::Maximum.better(a[1], b[1])]
+            [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
         };
-        self.usable().map(values).reduce_with(joined)
+        let include = |range, cell| {
+            vertices(cell).into_iter().fold(range, |range, value| joined(range, [value, value]))
+        };
+        let [low, high] = self.usable().fold(nothing, include).reduce(nothing, joined);
+        (low <= high).then_some([low, high])
     }
 
     /// The cells that may attain values outside an interval; `bounds` are what a cell's range was
@@ -300,7 +301,14 @@ fn rounded_outwards([low, high]: [f64; 2]) -> [f32; 2] {
 /// The greatest number of single precision that is not above a finite one.
 fn rounded_down(value: f64) -> f32 {
     let nearest = value as f32;
-    if f64::from(nearest) > value { nearest.next_down() } else { nearest }
+    let is_above = f64::from(nearest) > value;
+    if nearest == 0.0 {
+        return if is_above { nearest.next_down() } else { nearest };
+    }
+    // the next number by its bits, for nobody foresees whether it is needed
+    let bits = nearest.to_bits() as i32;
+    let toward_zero = 1 + 2 * (bits >> 31);
+    f32::from_bits((bits - i32::from(is_above) * toward_zero) as u32)
 }
 
 #[cfg(test)]

@@ -25,11 +25,11 @@
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::hermite::{ascending, quadratic_precision_of};
+use super::hermite::quadratic_precision_of;
 use super::limit::limited;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
-use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector};
+use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector, ascending_corners};
 
 /// What a tetrahedron says of each of its faces, by the opposite corner.
 #[derive(Clone, Copy, Debug, Default)]
@@ -130,7 +130,7 @@ fn mean_of_sides<'a>(sides: &[Side], estimate: impl Fn(&Side) -> &'a Estimate) -
 /// Sums are taken in the order of points' numbers, so that no bit depends on that of corners.
 fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: usize) -> Estimate {
     let points = mesh.tetrahedra()[tetrahedron];
-    let order = ascending(&points);
+    let (order, _) = ascending_corners(&points);
     let points = order.map(|corner| points[corner]);
     let frame = TetrahedronFrame::new(points.map(|point| mesh.points()[point as usize]));
     if frame.is_degenerate() {

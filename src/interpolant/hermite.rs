@@ -3,7 +3,7 @@
 
 use crate::bernstein::{SegmentCubic, TetrahedronCubic};
 use crate::field::Field;
-use crate::mesh::{TetrahedronMesh, Vector};
+use crate::mesh::{TetrahedronMesh, Vector, ascending_corners};
 
 /// What values and gradients at the corners of a tetrahedron say of its cubic: 16 of the 20
 /// coefficients.
@@ -120,21 +120,10 @@ pub(super) fn quadratic_precision_of(
 /// The corners of the face opposite each corner, in ascending order of their points:
 /// sums taken in this order have the same bits in both tetrahedra of a face.
 pub(super) fn ascending_faces(points: &[u32; 4]) -> [[usize; 3]; 4] {
-    let order = ascending(points);
+    let (order, _) = ascending_corners(points);
     let mut faces = [[0; 3]; 4];
     for (opposite, face) in order.into_iter().zip(TetrahedronCubic::FACE_VERTICES) {
         faces[opposite] = face.map(|place| order[place]);
     }
     faces
-}
-
-/// The corners in ascending order of their points.
-pub(super) fn ascending(points: &[u32; 4]) -> [usize; 4] {
-    let mut order = [0; 4];
-    for corner in 0..4 {
-        // a point that is there twice comes in the order of corners
-        let is_before = |&other: &usize| (points[other], other) < (points[corner], corner);
-        order[(0..4).filter(is_before).count()] = corner;
-    }
-    order
 }

@@ -9,11 +9,11 @@
 //!
 //! Source: ours.
 
-use super::hermite::{Known, ascending, joined};
+use super::hermite::{Known, joined};
 use super::pci;
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::field::Field;
-use crate::mesh::{TetrahedronMesh, TriangleMesh};
+use crate::mesh::{TetrahedronMesh, TriangleMesh, ascending_corners};
 
 /// Between which numbers all coefficients of a triangle's cubic are, without a PDE; nothing if
 /// they are not finite.
@@ -28,16 +28,17 @@ pub fn reach_in_tetrahedron(
     tetrahedron: usize,
 ) -> Option<[f64; 2]> {
     let points = mesh.tetrahedra()[tetrahedron];
-    let points = ascending(&points).map(|corner| points[corner]);
+    let points = ascending_corners(&points).0.map(|corner| points[corner]);
     let known = Known::new(&points, mesh.points(), field);
-    let faces = TetrahedronCubic::FACE_VERTICES.map(|[a, b, c]| {
-        let edges = [known.range_on_edge(a, b), known.range_on_edge(b, c)];
-        let others = joined(joined(edges[0], edges[1]), known.range_on_edge(c, a));
-        widened(known.amid([a, b, c]), others)
+    let [ab, ac, ad, bc, bd, cd] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
+        .map(|[from, to]| known.range_on_edge(from, to));
+    let edges = [[bc, cd, bd], [ac, cd, ad], [ab, bd, ad], [ab, bc, ac]];
+    let [first, second, third, fourth] = [0, 1, 2, 3].map(|opposite| {
+        let centre = known.amid(TetrahedronCubic::FACE_VERTICES[opposite]);
+        let [one, two, three] = edges[opposite];
+        widened(centre, joined(joined(one, two), three))
     });
-    let [first, second, third, fourth] = faces;
-    let all = joined(joined(first?, second?), joined(third?, fourth?));
-    Some(all)
+    Some(joined(joined(first?, second?), joined(third?, fourth?)))
 }
 
 fn of_triangle(cubic: &TriangleCubic) -> Option<[f64; 2]> {

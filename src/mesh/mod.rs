@@ -7,6 +7,7 @@
 mod boundary;
 mod bounding_box;
 mod closest_point;
+mod corner_order;
 mod edges;
 mod faces;
 mod frame;
@@ -21,6 +22,7 @@ mod tetrahedron_frame;
 
 pub use boundary::boundary_edges;
 pub use bounding_box::BoundingBox;
+pub(crate) use corner_order::ascending_corners;
 pub use edges::Edges;
 pub use faces::{Faces, Side};
 pub use frame::{TriangleFrame, plane_axes};

@@ -19,7 +19,7 @@ use crate::contour::crossings::crossings;
 use crate::contour::{holds, rounding};
 use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
-use crate::mesh::{TetrahedronFrame, Vector};
+use crate::mesh::{TetrahedronFrame, Vector, ascending_corners};
 
 /// A cell with one patch.
 #[derive(Clone, Copy, Debug)]
@@ -165,27 +165,14 @@ fn judge(
         return Judged::Other;
     }
     let points = mesh.tetrahedra()[number as usize];
-    let (order, is_even) = ascending(points);
+    let (order, is_even) = ascending_corners(&points);
     Judged::Simple(SimpleCell {
         number,
-        points: order.map(|place| points[usize::from(place)]),
-        order,
-        signs: order.map(|place| signs[usize::from(place)]),
+        points: order.map(|place| points[place]),
+        order: order.map(|place| place as u8),
+        signs: order.map(|place| signs[place]),
         right_handed: (signed_volume(&corners) > 0.0) == is_even,
     })
-}
-
-/// The places of points in ascending order, and whether that is an even permutation.
-fn ascending(points: [u32; 4]) -> ([u8; 4], bool) {
-    let mut keys = [0, 1, 2, 3].map(|place| u64::from(points[place]) << 2 | place as u64);
-    let mut is_even = true;
-    // a sorting network
-    for [i, j] in [[0, 1], [2, 3], [0, 2], [1, 3], [1, 2]] {
-        let (low, high) = (keys[i].min(keys[j]), keys[i].max(keys[j]));
-        is_even ^= low != keys[i];
-        (keys[i], keys[j]) = (low, high);
-    }
-    (keys.map(|key| (key & 3) as u8), is_even)
 }
 
 /// The active cells that have a point of some cells, these themselves included.
@@ -268,20 +255,3 @@ static POLYGONS: LazyLock<[ArrayVec<[u8; 2], 4>; 32]> = LazyLock::new(|| {
         edges.into_iter().map(|[n, m]| [n.min(m) as u8, n.max(m) as u8]).collect()
     })
 });
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contour::surface::cell::is_even;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn points_are_sorted(points in prop::array::uniform4(0..6_u32)) {
-            let (order, even) = ascending(points);
-            let order = order.map(usize::from);
-            prop_assert!(order.windows(2).all(|pair| points[pair[0]] <= points[pair[1]]));
-            prop_assert_eq!(even, is_even(&order));
-        }
-    }
-}

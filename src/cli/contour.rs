@@ -16,18 +16,14 @@ use super::cell_numbers::CellCounter;
 use super::input::{Arrays, Input, Part};
 use super::messages::Messages;
 use super::output::{Format, Output, listed_file};
+use super::running;
 use super::stats::{Clock, Stats, Step};
 use super::warnings::Warnings;
 
 /// Runs the job.
 pub fn run(arguments: &ContourArguments) -> Result<()> {
     let format = Format::of(arguments.output())?;
-    let running = &arguments.running;
-    running.start_threads()?;
-    let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
-    let result = write_contours(arguments, format, &messages);
-    messages.finish();
-    result
+    running::run(&arguments.running, |messages| write_contours(arguments, format, messages))
 }
 
 fn write_contours(arguments: &ContourArguments, format: Format, messages: &Messages) -> Result<()> {

@@ -15,6 +15,7 @@ use super::arguments::InterpolateArguments;
 use super::csv;
 use super::input::{Arrays, Input};
 use super::messages::Messages;
+use super::running;
 
 /// The kinds of output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,12 +29,7 @@ enum Format {
 /// Runs the job.
 pub fn run(arguments: &InterpolateArguments) -> Result<()> {
     let format = format(arguments)?;
-    let running = &arguments.running;
-    running.start_threads()?;
-    let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
-    let result = interpolate(arguments, format, &messages);
-    messages.finish();
-    result
+    running::run(&arguments.running, |messages| interpolate(arguments, format, messages))
 }
 
 /// The kind of output that a file's name asks for, if it can hold what is wanted.

@@ -17,6 +17,7 @@ mod monitor;
 mod output;
 mod plan;
 mod refine;
+mod running;
 mod solver;
 mod stats;
 mod warnings;

@@ -11,6 +11,7 @@ use vtu2contour::vtk::{AtomicFile, ClosedFile, write_vtu_to};
 use super::arguments::MonitorJobArguments;
 use super::input::{Arrays, Input};
 use super::messages::Messages;
+use super::running;
 
 /// Runs the job.
 pub fn run(arguments: &MonitorJobArguments) -> Result<()> {
@@ -18,12 +19,7 @@ pub fn run(arguments: &MonitorJobArguments) -> Result<()> {
     if !extension.is_some_and(|extension| extension.eq_ignore_ascii_case("vtu")) {
         bail!("cannot write '{}': a grid with a monitor is a .vtu", arguments.output.display());
     }
-    let running = &arguments.running;
-    running.start_threads()?;
-    let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
-    let result = job(arguments, &messages);
-    messages.finish();
-    result
+    running::run(&arguments.running, |messages| job(arguments, messages))
 }
 
 fn job(arguments: &MonitorJobArguments, messages: &Messages) -> Result<()> {

@@ -12,6 +12,7 @@ use vtu2contour::vtk::{
 use super::arguments::RefineArguments;
 use super::input::{Arrays, Input, Part};
 use super::messages::Messages;
+use super::running;
 use super::solver::Solver;
 
 /// Runs the job.
@@ -26,12 +27,7 @@ pub fn run(arguments: &RefineArguments) -> Result<()> {
              writes the array anew"
         );
     }
-    let running = &arguments.running;
-    running.start_threads()?;
-    let messages = Messages::new(running.quiet, running.verbose, !running.no_progress);
-    let result = Job::new(arguments, &messages).and_then(Job::run);
-    messages.finish();
-    result
+    running::run(&arguments.running, |messages| Job::new(arguments, messages).and_then(Job::run))
 }
 
 /// Steps of refinement, and of solving between them.

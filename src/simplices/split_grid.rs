@@ -8,7 +8,7 @@ use super::orientation::Lie;
 use super::splitter::Splitter;
 use crate::interruption::checkpoint;
 use crate::mesh::Vector;
-use crate::vtk::{ArrayError, DataArray, UnstructuredGrid};
+use crate::vtk::{ArrayError, DataArray, UnstructuredGrid, Values};
 
 /// Simplices of `CORNERS` corners, and the cells that they came from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -20,6 +20,12 @@ pub struct Pieces<const CORNERS: usize> {
 }
 
 impl<const CORNERS: usize> Pieces<CORNERS> {
+    /// Makes room for so many simplices.
+    fn reserve(&mut self, simplices: usize) {
+        self.simplices.reserve(simplices);
+        self.parents.reserve(simplices);
+    }
+
     /// Notes that all simplices without a parent are part of `cell`.
     fn close(&mut self, cell: usize) {
         self.parents.resize(self.simplices.len(), cell as u32);
@@ -70,6 +76,9 @@ impl SplitGrid {
         let points = vectors(&grid.points).ok_or(SplitError::Points)?;
         check(grid, points.len())?;
         let mut split = Self { points, ..Self::default() };
+        // most grids are of simplices
+        split.triangles.reserve(grid.types.iter().filter(|&&cell_type| cell_type == 5).count());
+        split.tetrahedra.reserve(grid.types.iter().filter(|&&cell_type| cell_type == 10).count());
         let mut splitter = Splitter::new(grid, &split.points);
         for (cell, (points, &cell_type)) in grid.cells.iter().zip(&grid.types).enumerate() {
             checkpoint();
@@ -99,10 +108,13 @@ fn check(grid: &UnstructuredGrid, points: usize) -> Result<(), SplitError> {
 
 /// The tuples of an array of three components (or two, with z = 0).
 pub fn vectors(array: &DataArray) -> Option<Vec<Vector>> {
-    let values = array.to_f64()?;
-    match array.components {
+    let vectors = |values: &[f64]| match array.components {
         3 => Some(values.chunks_exact(3).map(Vector::from_column_slice).collect()),
         2 => Some(values.chunks_exact(2).map(|p| Vector::new(p[0], p[1], 0.0)).collect()),
         _ => None,
+    };
+    match &array.values {
+        Values::F64(values) => vectors(values),
+        _ => vectors(&array.to_f64()?),
     }
 }

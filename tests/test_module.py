@@ -12,6 +12,7 @@ import sys
 import textwrap
 import threading
 import warnings
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +46,33 @@ def solid(cell: str = "tetrahedra", n: int = 5) -> pv.UnstructuredGrid:
     grid.point_data["other"] = np.arange(grid.n_points, dtype=np.float32)
     grid.cell_data["number"] = np.arange(grid.n_cells)
     return grid
+
+
+def triangles(surface: pv.PolyData) -> Counter:
+    """The triangles by where their corners are, to 1e-12, each with how often it is there."""
+    corners = surface.points[surface.faces.reshape(-1, 4)[:, 1:]].round(12) + 0.0
+    return Counter(tuple(sorted(map(tuple, triangle))) for triangle in corners.tolist())
+
+
+def pieces_with_ghosts(grid: pv.UnstructuredGrid, layers: int) -> list[pv.UnstructuredGrid]:
+    """A grid in two pieces, below and above z = 0.4, each with so many layers of the cells of the
+    other, by common points, as ghosts."""
+    is_above = grid.cell_centers().points[:, 2] > 0.4
+    pieces = []
+    for own in (~is_above, is_above):
+        kept = np.flatnonzero(own)
+        for _ in range(layers):
+            points = np.unique(np.concatenate([grid.get_cell(n).point_ids for n in kept]))
+            kept = grid.extract_points(points, adjacent_cells=True)["vtkOriginalCellIds"]
+            kept = np.sort(kept)
+        piece = grid.extract_cells(kept)
+        is_ghost = ~own[piece.cell_data["vtkOriginalCellIds"]]
+        for data in (piece.point_data, piece.cell_data):
+            for name in [name for name in data if name.startswith("vtkOriginal")]:
+                data.remove(name)
+        piece.cell_data["vtkGhostType"] = is_ghost.astype(np.uint8)
+        pieces.append(piece)
+    return pieces
 
 
 def same(one: pv.PolyData, other: pv.PolyData) -> None:
@@ -344,6 +372,21 @@ def test_ctrl_c_ends_a_long_job():
     process.send_signal(signal.SIGINT)
     output, _ = process.communicate(timeout=60)
     assert output.split() == ["interrupted", "1"]
+
+
+@pytest.mark.parametrize(("given", "layers"), [(True, 1), (False, 4)])
+def test_pieces_with_ghosts_make_the_contour_of_the_whole(given, layers):
+    grid = solid(n=8)
+    if not given:
+        grid.point_data.remove("grad_u")
+
+    def contour(mesh: pv.UnstructuredGrid) -> Counter:
+        return triangles(vc.contour(mesh, [0.5], scalars="u", nside=3))
+
+    whole = contour(grid)
+    assert sum(map(contour, pieces_with_ghosts(grid, layers)), Counter()) == whole
+    # one layer less does not do
+    assert sum(map(contour, pieces_with_ghosts(grid, layers - 1)), Counter()) != whole
 
 
 @pytest.mark.parametrize(

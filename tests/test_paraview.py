@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import pyvista as pv
 from conftest import ROOT
-from test_module import same, solid
+from test_module import pieces_with_ghosts, same, solid, triangles
 
 import vtu2contour as vc
 
@@ -96,20 +96,8 @@ def single() -> pv.UnstructuredGrid:
 
 
 def in_pieces(grid: pv.UnstructuredGrid, path: Path) -> Path:
-    """A grid in two pieces, below and above z = 0.4, each with the cells of the other that share
-    its points, as ghosts."""
-    is_above = grid.cell_centers().points[:, 2] > 0.4
-    for number, own in enumerate((~is_above, is_above)):
-        points = np.unique(
-            np.concatenate([grid.get_cell(n).point_ids for n in np.flatnonzero(own)])
-        )
-        touched = grid.extract_points(points, adjacent_cells=True)["vtkOriginalCellIds"]
-        piece = grid.extract_cells(np.sort(touched))
-        is_ghost = ~own[piece.cell_data["vtkOriginalCellIds"]]
-        for data in (piece.point_data, piece.cell_data):
-            for name in [name for name in data if name.startswith("vtkOriginal")]:
-                data.remove(name)
-        piece.cell_data["vtkGhostType"] = is_ghost.astype(np.uint8)
+    """A grid in two pieces, each with the cells of the other that share its points, as ghosts."""
+    for number, piece in enumerate(pieces_with_ghosts(grid, 1)):
         piece.save(path.with_name(f"{path.stem}_{number}.vtu"))
     path.write_text(
         """<VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian">
@@ -259,12 +247,6 @@ def test_levels_reuse_the_interpolant_and_errors_leave_nothing(results):
     assert "made levels 2\n" in text
     assert "DEI Contour: pde: " in told(results, "levels")
     assert pv.read(folder / "no.vtp").n_points == 0
-
-
-def triangles(surface: pv.PolyData) -> Counter:
-    """The triangles by where their corners are, to 1e-12, each with how often it is there."""
-    corners = surface.points[surface.faces.reshape(-1, 4)[:, 1:]].round(12) + 0.0
-    return Counter(tuple(sorted(map(tuple, triangle))) for triangle in corners.tolist())
 
 
 @pytest.mark.skipif(shutil.which("mpiexec") is None, reason="no MPI here")

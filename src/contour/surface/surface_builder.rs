@@ -43,8 +43,9 @@ pub fn add_level(
     let polygons = Polygons::new(level.simple, level.interpolant, level.level, surface);
     let first_of_builder = surface.points.len();
     let (places, on_level, facets) = (FxHashMap::default(), FxHashSet::default(), Vec::new());
+    let drawn = Vec::new();
     let mut builder =
-        Builder { surface, level, polygons, places, facets, on_level, collapsed: false };
+        Builder { surface, level, polygons, places, facets, drawn, on_level, collapsed: false };
     for chunk in patches {
         builder.add(chunk);
     }
@@ -63,12 +64,23 @@ struct Builder<'a> {
     polygons: Polygons,
     /// Where the points are that patches share.
     places: FxHashMap<Owner, u32>,
-    /// The triangles.
+    /// The triangles, if a tolerance may divide them.
     facets: Vec<Facet>,
+    /// Those that are drawn.
+    drawn: Vec<Drawn>,
     /// Points that are vertices on the level.
     on_level: FxHashSet<u32>,
     /// Whether parts of patches fell together on the level.
     collapsed: bool,
+}
+
+/// A triangle that is drawn: of a facet what the surface keeps.
+#[derive(Clone, Copy, Debug)]
+struct Drawn {
+    /// Its corners, as places among the points of the surface.
+    corners: [u32; 3],
+    /// The cell, as a place among those that are active.
+    cell: u32,
 }
 
 impl Builder<'_> {
@@ -87,8 +99,20 @@ impl Builder<'_> {
             let at = points.map(|point| point.at);
             let facet = Facet { corners, piece, rays, at, cell };
             let is_on_level = corners.iter().all(|corner| self.on_level.contains(corner));
-            self.collapsed |= is_on_level || is_collapsed(&facet);
-            self.facets.push(facet);
+            self.collapsed |= is_on_level || is_collapsed(corners);
+            if self.level.tolerance.is_some() {
+                self.facets.push(facet);
+            } else {
+                self.draw(&facet);
+            }
+        }
+    }
+
+    /// Draws a triangle, unless it is part of a face that is drawn as a whole.
+    fn draw(&mut self, facet: &Facet) {
+        let Facet { corners, cell, .. } = *facet;
+        if !is_drawn_as_face(facet, &self.level.cells[cell as usize]) {
+            self.drawn.push(Drawn { corners, cell });
         }
     }
 
@@ -134,28 +158,25 @@ impl Builder<'_> {
             for (point, cell) in &points {
                 add_point(self.surface, &self.level.cells, point, *cell);
             }
-            self.facets = facets;
+            // not before: what is thin may have an inside that refinement finds
+            facets.iter().for_each(|facet| self.draw(facet));
             self.surface.counts.coarse += coarse;
         }
-        // not before: what is thin may have an inside that refinement finds
-        let cells = &self.level.cells;
-        let is_drawn = |facet: &Facet| is_drawn_as_face(facet, &cells[facet.cell as usize]);
-        self.facets.retain(|facet| !is_drawn(facet));
         if self.collapsed {
-            self.facets.retain(|facet| !is_collapsed(facet));
-            drop_doubles(&mut self.facets);
+            self.drawn.retain(|triangle| !is_collapsed(triangle.corners));
+            drop_doubles(&mut self.drawn);
         }
         self.drop_unused_points(first_point);
-        let number = |facet: &Facet| self.level.cells[facet.cell as usize].number;
-        self.surface.triangles.extend(self.facets.iter().map(|facet| facet.corners));
-        self.surface.cells.extend(self.facets.iter().map(number));
+        let number = |triangle: &Drawn| self.level.cells[triangle.cell as usize].number;
+        self.surface.triangles.extend(self.drawn.iter().map(|triangle| triangle.corners));
+        self.surface.cells.extend(self.drawn.iter().map(number));
     }
 
     /// Takes away points of the level that no triangle has, as those of patches in faces that are
     /// drawn by themselves.
     fn drop_unused_points(&mut self, first: usize) {
         let mut is_used = vec![false; self.surface.points.len() - first];
-        for corner in self.facets.iter().flat_map(|facet| facet.corners) {
+        for corner in self.drawn.iter().flat_map(|triangle| triangle.corners) {
             if let Some(place) = (corner as usize).checked_sub(first) {
                 is_used[place] = true;
             }
@@ -171,8 +192,8 @@ impl Builder<'_> {
             next += 1;
         }
         self.surface.points.truncate(next);
-        for facet in &mut self.facets {
-            facet.corners = facet.corners.map(|corner| {
+        for triangle in &mut self.drawn {
+            triangle.corners = triangle.corners.map(|corner| {
                 let place = (corner as usize).checked_sub(first);
                 place.map_or(corner, |place| numbers[place])
             });
@@ -186,8 +207,7 @@ fn is_drawn_as_face(facet: &Facet, cell: &Cell) -> bool {
 }
 
 /// Whether corners fell together on the level.
-fn is_collapsed(facet: &Facet) -> bool {
-    let [a, b, c] = facet.corners;
+fn is_collapsed([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
@@ -202,19 +222,19 @@ fn add_point(surface: &mut ContourSurface, cells: &[Cell], point: &PatchPoint, c
 
 /// Takes away pairs of triangles with the same corners and opposite fronts: what is left
 /// of a thin part of the surface when its two sides fall together.
-fn drop_doubles(facets: &mut Vec<Facet>) {
-    let name = |facet: &Facet| {
-        let mut name = facet.corners;
-        name.sort_unstable();
-        name
+fn drop_doubles(triangles: &mut Vec<Drawn>) {
+    let name = |mut corners: [u32; 3]| {
+        corners.sort_unstable();
+        corners
     };
-    let mut named: Vec<([u32; 3], bool, usize)> = facets
+    let mut named: Vec<([u32; 3], bool, usize)> = triangles
         .iter()
+        .map(|triangle| triangle.corners)
         .enumerate()
-        .map(|(place, facet)| (name(facet), is_even(&facet.corners.map(|n| n as usize)), place))
+        .map(|(place, corners)| (name(corners), is_even(&corners.map(|n| n as usize)), place))
         .collect();
     named.sort_unstable();
-    let mut dropped = vec![false; facets.len()];
+    let mut dropped = vec![false; triangles.len()];
     for same in named.chunk_by(|a, b| a.0 == b.0) {
         let odd = same.iter().filter(|(_, is_even, _)| !is_even).count();
         // the odd ones come first
@@ -224,5 +244,5 @@ fn drop_doubles(facets: &mut Vec<Facet>) {
         }
     }
     let mut dropped = dropped.into_iter();
-    facets.retain(|_| !dropped.next().unwrap_or(false));
+    triangles.retain(|_| !dropped.next().unwrap_or(false));
 }

@@ -247,3 +247,31 @@ fn wrong_shape(arrays: &GradientArrays, chosen: &ChosenArray) -> FilterError {
     let (name, components) = (arrays.name(), arrays.components());
     FilterError::GradientShape { name, components, expected }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::TriangleMesh;
+
+    #[test]
+    fn a_sample_tells_of_all_of_a_large_mesh() {
+        // squares of two triangles, in a row
+        let squares = 2 * SAMPLE as u32;
+        let points = (0..=squares).flat_map(|n| [0.0, 1.0].map(|y| Vector::new(n.into(), y, 0.0)));
+        let points: Vec<Vector> = points.collect();
+        let cut = |n: u32| [[2 * n, 2 * n + 2, 2 * n + 1], [2 * n + 2, 2 * n + 3, 2 * n + 1]];
+        let mesh = TriangleMesh::new(points, (0..squares).flat_map(cut).collect()).unwrap();
+        let along = vec![Vector::x(); mesh.points().len()];
+        let values = |slope: fn(f64) -> f64| -> Vec<f64> {
+            mesh.points().iter().map(|point| slope(point.x)).collect()
+        };
+        assert_eq!(misfit(&mesh, &values(|x| x), &along), 0.0);
+        // constant in one half
+        let half = misfit(&mesh, &values(|x| x.min(f64::from(SAMPLE as u32))), &along);
+        assert!((half - 1.0).abs() < 1e-3, "{half}");
+        let across = vec![Vector::y(); mesh.points().len()];
+        let none = misfit(&mesh, &values(|x| x), &across);
+        // wrong by 1, 2 and 1 along sides on which values change by 1, 1 and 0
+        assert!((none - 2.0).abs() < 1e-3, "{none}");
+    }
+}

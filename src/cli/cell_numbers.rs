@@ -1,6 +1,6 @@
 //! The numbers that the cells of pieces have in the whole.
 
-use vtu2contour::vtk::{Description, PieceCounts};
+use vtu2contour::vtk::Description;
 
 /// Counts the cells of pieces, one piece after the other.
 ///
@@ -21,14 +21,10 @@ pub struct CellNumbers {
 impl CellCounter {
     /// Before the first piece.
     pub fn new(whole: &Description) -> Self {
-        let counts: [fn(&PieceCounts) -> usize; 4] =
-            [|piece| piece.verts, |piece| piece.lines, |piece| piece.polys, |piece| piece.strips];
-        let totals = counts.map(|count| whole.pieces.iter().map(count).sum::<usize>());
-        let mut next = [0; 4];
-        for kind in 1..4 {
-            next[kind] = next[kind - 1] + totals[kind - 1];
-        }
-        Self { is_surface: totals.iter().any(|&count| count > 0), next }
+        let of_kind = |kind: usize| whole.pieces.iter().map(|piece| piece.kinds()[kind]).sum();
+        let totals: [usize; 4] = [0, 1, 2, 3].map(of_kind);
+        let next = [0, 1, 2, 3].map(|kind| totals[..kind].iter().sum());
+        Self { is_surface: totals != [0; 4], next }
     }
 
     /// The numbers of the next piece's cells, of which the types are given.

@@ -26,14 +26,6 @@ impl Extreme {
         }
     }
 
-    /// The most extreme of some values.
-    pub fn best(self, values: &[f64]) -> f64 {
-        values
-            .iter()
-            .copied()
-            .fold(self.of([f64::INFINITY, f64::NEG_INFINITY]), |a, b| self.better(a, b))
-    }
-
     /// The end of a range on this side.
     pub fn of(self, [low, high]: [f64; 2]) -> f64 {
         match self {

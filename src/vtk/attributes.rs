@@ -146,7 +146,7 @@ impl Attributes {
             sets.map(|set| by_name(set).collect()).collect();
         let mut arrays = Vec::with_capacity(first.arrays.len());
         for mut array in first.arrays {
-            // a set at a time, so that no array is there twice for long
+            // an array at a time, so that little is in memory twice
             let more = others.iter_mut().map(|set| set.remove(&array.name));
             let mut more = more.collect::<Vec<_>>().into_iter();
             if more.all(|more| append_to(&mut array, more)) {

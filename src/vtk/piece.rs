@@ -42,9 +42,15 @@ impl PieceCounts {
             strips: optional("NumberOfStrips")?,
             cells: 0,
         };
-        let kinds = [counts.verts, counts.lines, counts.polys, counts.strips];
-        let cells = sum(kinds.into_iter()).ok_or_else(|| bad(file, node, "NumberOfPolys"))?;
+        let cells =
+            sum(counts.kinds().into_iter()).ok_or_else(|| bad(file, node, "NumberOfPolys"))?;
         Ok(Self { cells, ..counts })
+    }
+
+    /// Cells of [`PolyData`](super::PolyData) in the order of cell data: verts, lines, polygons,
+    /// strips; zeros in other data sets.
+    pub fn kinds(&self) -> [usize; 4] {
+        [self.verts, self.lines, self.polys, self.strips]
     }
 }
 

@@ -105,8 +105,8 @@ pub(super) fn read_surfaces(
     let warnings = reading.warnings.clone();
     let mut decoded = reading.decode()?;
     // from the order of the pieces to that of the joined data
-    let counts = |piece: &Piece<'_>| [VERTS, LINES, POLYS, STRIPS].map(|(_, n)| n(&piece.counts));
-    decoded.cell_data.reorder(&by_kind(pieces.list.iter().map(counts)));
+    let counts = pieces.list.iter().map(|piece| piece.counts.kinds());
+    decoded.cell_data.reorder(&by_kind(counts));
     Ok(Loaded {
         data: PolyData {
             points: decoded.points,

@@ -484,10 +484,12 @@ pub struct ContourArguments {
     /// Take the pieces of a .pvtu or .pvtp one at a time: the memory is that of the largest of
     /// them, and of the contours
     ///
-    /// The contours are the same, but for what each piece decides by itself: whether a gradient array
-    /// fits, which is told if they differ, and the PDE's equations in solids. Each piece is read twice: first for the size of the whole, and its range
-    /// where that decides the levels. For a .pvtp all this is done anyway, and there the memory does
-    /// not depend on the contours either. Of a series (.pvd) choose a step, with --time.
+    /// The contours are the same, but for what each piece decides by itself: whether a gradient
+    /// array fits, which is told if they differ, and the PDE's equations in solids. Points of
+    /// single precision become double beside those of double. Each piece is read twice: first for
+    /// the size of the whole, and its range where that decides the levels. For a .pvtp all this is
+    /// done anyway, and there the memory does not depend on the contours either. Of a series (.pvd)
+    /// choose a step, with --time.
     #[arg(
         long, help_heading = "Running", conflicts_with_all = ["triangles", "merge_points"]
     )]

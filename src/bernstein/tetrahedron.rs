@@ -1,7 +1,7 @@
 //! Cubic polynomials on a tetrahedron.
 
 use super::barycentric::Barycentric4;
-use super::bounds::bounds;
+use super::bounds::{bounds, value_bounds};
 use super::segment::SegmentCubic;
 use super::triangle::TriangleCubic;
 
@@ -233,6 +233,19 @@ impl TetrahedronCubic {
     pub fn bounds(&self) -> (f64, f64) {
         bounds(&self.coefficients)
     }
+
+    /// What the Bernstein polynomials of the four coefficients amid faces sum up to, at most: six
+    /// times the sum of the products of three coordinates, which is greatest in the middle.
+    pub const SHARE_OF_FACES: f64 = 3.0 / 8.0;
+
+    /// Certain bounds that are closer: the polynomial lies between them, but not all coefficients.
+    pub fn value_bounds(&self) -> [f64; 2] {
+        let mut on_edges = self.coefficients;
+        Self::FACES.into_iter().for_each(|face| on_edges[face] = on_edges[0]);
+        let amid_faces = Self::FACES.map(|face| self.coefficients[face]);
+        let [on_edges, amid_faces] = [bounds(&on_edges), bounds(&amid_faces)].map(Into::into);
+        value_bounds(on_edges, amid_faces, Self::SHARE_OF_FACES)
+    }
 }
 
 /// The three vertices, with repeats, that exponents stand for.
@@ -339,6 +352,14 @@ mod tests {
         }
     }
 
+    #[test]
+    fn bounds_of_values_are_met() {
+        let amid = |exponents: Exponents| f64::from(exponents.iter().all(|&power| power < 2));
+        let bump = TetrahedronCubic::from_coefficients(amid);
+        assert_eq!((bump.value_bounds(), bump.value(&[0.25; 4])), ([0.0, 0.375], 0.375));
+        assert_eq!(bump.minus(1.0).value_bounds(), [-1.0, -0.625]);
+    }
+
     proptest! {
         /// Two tetrahedra that share a face compute the same bits on it.
         #[test]
@@ -366,6 +387,10 @@ mod tests {
             prop_assert!((p.value(&at) - definition(&p, &at)).abs() < 1e-14);
             let (low, high) = p.bounds();
             prop_assert!(low <= p.value(&at) && p.value(&at) <= high);
+            let [least, greatest] = p.value_bounds();
+            prop_assert!(low <= least && greatest <= high);
+            let noise = 1e-15;
+            prop_assert!(least - noise <= p.value(&at) && p.value(&at) <= greatest + noise);
         }
 
         #[test]

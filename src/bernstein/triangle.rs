@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::barycentric::Barycentric;
-use super::bounds::bounds;
+use super::bounds::{bounds, value_bounds};
 use super::segment::SegmentCubic;
 
 /// A cubic polynomial on a triangle, by its ten Bernstein coefficients.
@@ -209,6 +209,18 @@ impl TriangleCubic {
     pub fn bounds(&self) -> (f64, f64) {
         bounds(&self.coefficients)
     }
+
+    /// The most that the Bernstein polynomial of the coefficient amid the triangle is: 2/9, in the
+    /// middle; rounded up.
+    pub const SHARE_OF_CENTRE: f64 = 0.2223;
+
+    /// Certain bounds that are closer: the polynomial lies between them, but not all coefficients.
+    pub fn value_bounds(&self) -> [f64; 2] {
+        let mut on_edges = self.coefficients;
+        on_edges[Self::CENTRE] = on_edges[0];
+        let centre = self.coefficients[Self::CENTRE];
+        value_bounds(bounds(&on_edges).into(), [centre; 2], Self::SHARE_OF_CENTRE)
+    }
 }
 
 /// One step of de Casteljau's algorithm, from ten coefficients to six.
@@ -282,6 +294,14 @@ mod tests {
         assert!((linear.value(&[0.5, 0.25, 0.25]) - 2.0).abs() < 1e-15);
     }
 
+    #[test]
+    fn bounds_of_values_are_met() {
+        let mut bump = TriangleCubic::linear([0.0; 3]);
+        bump.coefficients[TriangleCubic::CENTRE] = 1.0;
+        let ([low, high], top) = (bump.value_bounds(), bump.value(&[1.0 / 3.0; 3]));
+        assert!(low == 0.0 && top <= high && high < top + 1e-4, "{top} {high}");
+    }
+
     proptest! {
         #[test]
         fn value_is_the_definition(p in cubics(), at in inside()) {
@@ -293,6 +313,9 @@ mod tests {
             let (low, high) = p.bounds();
             let value = p.value(&at);
             prop_assert!(low - 1e-15 <= value && value <= high + 1e-15);
+            let [least, greatest] = p.value_bounds();
+            prop_assert!(low <= least && greatest <= high);
+            prop_assert!(least - 1e-15 <= value && value <= greatest + 1e-15);
         }
 
         #[test]

@@ -34,6 +34,18 @@ pub enum LevelError {
 }
 
 impl Levels {
+    /// The levels as numbers, ascending and without repeats, if the solution's own range has no say
+    /// in them.
+    ///
+    /// # Errors
+    /// If a level is not finite, or the range given is empty.
+    pub fn known(&self) -> Result<Option<Vec<f64>>, LevelError> {
+        match self {
+            Levels::Equal { range: None, .. } => Ok(None),
+            _ => self.resolve([0.0, 0.0]).map(Some),
+        }
+    }
+
     /// The levels as numbers, ascending and without repeats. `attained` is the
     /// solution's own range. A constant solution has no level inside its range.
     ///
@@ -76,8 +88,10 @@ mod tests {
     fn levels_divide_the_range_without_its_ends() {
         let levels = Levels::Equal { count: 3, range: None };
         assert_eq!(levels.resolve([0.0, 4.0]), Ok(vec![1.0, 2.0, 3.0]));
+        assert_eq!(levels.known(), Ok(None));
         let levels = Levels::Equal { count: 1, range: Some([0.0, 1.0]) };
         assert_eq!(levels.resolve([5.0, 9.0]), Ok(vec![0.5]));
+        assert_eq!(levels.known(), Ok(Some(vec![0.5])));
     }
 
     #[test]

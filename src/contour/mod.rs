@@ -9,6 +9,7 @@
 //! 3. the curve through each piece, by one of four methods, and the arcs joined
 //!    into polylines.
 
+mod block_ranges;
 mod components;
 mod crossings;
 mod extreme;
@@ -19,8 +20,9 @@ mod ranges;
 mod rounding;
 pub mod surface;
 
+pub use block_ranges::BlockRanges;
 pub use extreme::{Extreme, recursive_extreme};
 pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 pub use levels::{LevelError, Levels};
-pub use ranges::CellRanges;
 pub(crate) use ranges::holds;
+pub use ranges::{CellCubic, CellRanges, holds_any};

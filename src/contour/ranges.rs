@@ -8,9 +8,11 @@
 
 use rayon::prelude::*;
 
+use super::block_ranges::BlockRanges;
 use super::extreme::{Extreme, recursive_extreme};
 use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 use super::rounding;
+use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::interpolant::{TetrahedronCubics, TriangleCubics};
 use crate::interruption::checkpoint;
 use crate::mesh::Subset;
@@ -21,11 +23,15 @@ use crate::mesh::Subset;
 /// which matters beside a mesh. The few cells that they leave are asked again.
 #[derive(Clone, Debug)]
 pub struct CellRanges {
-    /// Least and greatest coefficient; an empty range for an unusable cell.
+    /// The cells that have a range, ascending; nothing if all of the mesh have.
+    cells: Option<Vec<u32>>,
+    /// Least and greatest value of each of them; an empty range for one that is left out.
     ranges: Vec<[f32; 2]>,
-    /// What holds the ranges of each [`BLOCK`] of cells: a level that it does not hold passes over
+    /// What holds the ranges of each [`BLOCK`] of them: a level that it does not hold passes over
     /// them all. Neighbours mostly have numbers that are near each other, so most blocks are.
     blocks: Vec<[f32; 2]>,
+    /// The cells of the mesh that are unusable or excluded.
+    left_out: Subset,
     unusable: usize,
     excluded: usize,
 }
@@ -34,80 +40,113 @@ pub struct CellRanges {
 const BLOCK: usize = 32;
 
 /// The range of a cell that holds no value.
-const EMPTY: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
+pub(super) const EMPTY: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
+
+/// A cubic on a cell of two or three dimensions.
+pub trait CellCubic {
+    /// Its certain bounds; nothing if a coefficient is not finite.
+    fn finite_bounds(&self) -> Option<[f64; 2]>;
+
+    /// An extreme value that it attains, by the recursive search.
+    fn attained(&self, which: Extreme) -> f64;
+}
+
+impl CellCubic for TriangleCubic {
+    fn finite_bounds(&self) -> Option<[f64; 2]> {
+        finite(&self.coefficients).then(|| self.value_bounds())
+    }
+
+    fn attained(&self, which: Extreme) -> f64 {
+        recursive_extreme(self, which).value
+    }
+}
+
+impl CellCubic for TetrahedronCubic {
+    fn finite_bounds(&self) -> Option<[f64; 2]> {
+        finite(&self.coefficients).then(|| self.value_bounds())
+    }
+
+    fn attained(&self, which: Extreme) -> f64 {
+        recursive_extreme_in_tetrahedron(self, which).value
+    }
+}
 
 impl CellRanges {
     /// The ranges of all triangles of `interpolant`.
     pub fn new(interpolant: &dyn TriangleCubics) -> Self {
         let cells = interpolant.mesh().triangles().len();
-        Self::of_bounds(cells, |cell| of_triangle(interpolant, cell))
+        Self::of_all(cells, |cell| interpolant.cubic(cell).finite_bounds())
     }
 
     /// The ranges of all tetrahedra of `interpolant`.
     pub fn of_tetrahedra(interpolant: &dyn TetrahedronCubics) -> Self {
         let cells = interpolant.mesh().tetrahedra().len();
-        Self::of_bounds(cells, |cell| of_tetrahedron(interpolant, cell))
+        Self::of_all(cells, |cell| interpolant.cubic(cell).finite_bounds())
     }
 
     /// Ranges of so many cells, each within the bounds that are given; nothing for unusable cells.
-    pub fn of_bounds(
-        cells: usize,
-        bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync + Send,
-    ) -> Self {
+    fn of_all(cells: usize, bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync + Send) -> Self {
         let range = |cell| {
             checkpoint();
             bounds(cell).map_or(EMPTY, rounded_outwards)
         };
         let ranges: Vec<[f32; 2]> = (0..cells).into_par_iter().map(range).collect();
-        let unusable = ranges.iter().filter(|&&range| range == EMPTY).count();
-        let joined = |a: [f32; 2], b: &[f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
-        let blocks = ranges.par_chunks(BLOCK).map(|block| block.iter().fold(EMPTY, joined));
-        let blocks = blocks.collect();
-        Self { ranges, blocks, unusable, excluded: 0 }
+        let left_out = Subset::new(cells, |cell| ranges[cell] == EMPTY);
+        let (blocks, unusable) = (blocks(&ranges), left_out.len());
+        Self { cells: None, ranges, blocks, left_out, unusable, excluded: 0 }
     }
 
-    /// Takes for some triangles the range of their cubics, instead of bounds that were known
-    /// before.
-    pub fn narrow(&mut self, triangles: &Subset, interpolant: &dyn TriangleCubics) {
-        self.narrow_to(triangles, |cell| of_triangle(interpolant, cell));
-    }
-
-    /// The same for tetrahedra.
-    pub fn narrow_tetrahedra(&mut self, tetrahedra: &Subset, interpolant: &dyn TetrahedronCubics) {
-        self.narrow_to(tetrahedra, |cell| of_tetrahedron(interpolant, cell));
-    }
-
-    fn narrow_to(&mut self, cells: &Subset, bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync) {
-        let numbered = self.ranges.par_iter_mut().enumerate();
-        let usable = numbered.filter(|(cell, range)| **range != EMPTY && cells.contains(*cell));
-        let lost = usable.map(|(cell, range)| {
-            *range = bounds(cell).map_or(EMPTY, rounded_outwards);
-            usize::from(*range == EMPTY)
-        });
-        self.unusable += lost.sum::<usize>();
+    /// The ranges of some cells, whose cubics are known, of those that were bounded before: the
+    /// others are not to be looked at.
+    pub fn of_some<Cubic: CellCubic>(
+        cells: &Subset,
+        bounded: &BlockRanges,
+        cubic: impl Fn(usize) -> Cubic + Sync,
+    ) -> Self {
+        let numbers: Vec<u32> = cells.simplices().map(|cell| cell as u32).collect();
+        let range = |&cell: &u32| {
+            checkpoint();
+            cubic(cell as usize).finite_bounds().map_or(EMPTY, rounded_outwards)
+        };
+        let ranges: Vec<[f32; 2]> = numbers.par_iter().map(range).collect();
+        // the neighbours may make a coefficient infinite
+        let is_lost = |cell| cells.place(cell).is_some_and(|place| ranges[place] == EMPTY);
+        let is_left_out = |cell| bounded.leaves_out(cell) || is_lost(cell);
+        let left_out = if bounded.leaves_out_any() || ranges.contains(&EMPTY) {
+            Subset::new(bounded.cells(), is_left_out)
+        } else {
+            Subset::none(bounded.cells())
+        };
+        let excluded = bounded.excluded();
+        let (blocks, unusable) = (blocks(&ranges), left_out.len() - excluded);
+        Self { cells: Some(numbers), ranges, blocks, left_out, unusable, excluded }
     }
 
     /// Leaves out the usable cells for which `excluded` says so; returns how many.
-    pub fn exclude(&mut self, excluded: impl Fn(usize) -> bool) -> usize {
-        let mut count = 0;
-        for (cell, range) in self.ranges.iter_mut().enumerate() {
-            if *range != EMPTY && excluded(cell) {
+    pub fn exclude(&mut self, excluded: impl Fn(usize) -> bool + Sync) -> usize {
+        let before = self.left_out.len();
+        let left_out = &self.left_out;
+        let is_left_out = |cell: usize| left_out.contains(cell) || excluded(cell);
+        self.left_out = Subset::new(left_out.simplex_count(), is_left_out);
+        for (place, range) in self.ranges.iter_mut().enumerate() {
+            let cell = self.cells.as_ref().map_or(place, |cells| cells[place] as usize);
+            if self.left_out.contains(cell) {
                 *range = EMPTY;
-                count += 1;
             }
         }
+        let count = self.left_out.len() - before;
         self.excluded += count;
         count
     }
 
     /// Whether any cell is left out: unusable, or excluded.
     pub fn leaves_out_any(&self) -> bool {
-        self.unusable + self.excluded > 0
+        !self.left_out.is_empty()
     }
 
     /// Whether a cell is left out: unusable, or excluded.
     pub fn leaves_out(&self, cell: usize) -> bool {
-        self.ranges[cell] == EMPTY
+        self.left_out.contains(cell)
     }
 
     /// How many cells have a value or a gradient that is not finite. They hold
@@ -117,8 +156,8 @@ impl CellRanges {
     }
 
     /// The cells whose range holds `level`, give or take the `tolerance` of that
-    /// range, ascending; `bounds` are the least and the greatest coefficient of a cell. The
-    /// tolerance must not be less for a wider range.
+    /// range, ascending; `bounds` are those of a cell's cubic. The tolerance must not be less for
+    /// a wider range.
     pub fn cells_at(
         &self,
         level: f64,
@@ -136,126 +175,96 @@ impl CellRanges {
             |range: &[f32; 2]| *range != EMPTY && holds(range.map(f64::from), level, &tolerance);
         let blocks = self.blocks.par_iter().zip(self.ranges.par_chunks(BLOCK)).enumerate();
         let near = blocks.filter(|(_, (block, _))| holds(block));
-        let cells = near.flat_map_iter(|(number, (_, ranges))| {
+        let places = near.flat_map_iter(|(number, (_, ranges))| {
             let numbered = (number * BLOCK..).zip(ranges).filter(|(_, range)| holds(range));
-            numbered.map(|(cell, _)| cell as u32)
+            numbered.map(|(place, _)| place)
         });
-        cells.collect()
+        places.map(|place| self.cell(place)).collect()
     }
 
-    /// The cells whose range holds one of the levels (ascending), to rounding.
-    pub fn cells_near_any(&self, levels: &[f64]) -> Subset {
-        Subset::new(self.ranges.len(), |cell| {
-            let range = self.ranges[cell];
-            range != EMPTY && holds_any(range.map(f64::from), levels)
-        })
-    }
-
-    /// The least and the greatest value at the vertices of usable cells; `vertices` are those of a
-    /// cell. Nothing without usable cells.
-    pub fn at_vertices<const CORNERS: usize>(
-        &self,
-        vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
-    ) -> Option<[f64; 2]> {
-        let nothing = || [f64::INFINITY, f64::NEG_INFINITY];
-        let joined = |a: [f64; 2], b: [f64; 2]| {
-            [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
-        };
-        let include = |range, cell| {
-            vertices(cell).into_iter().fold(range, |range, value| joined(range, [value, value]))
-        };
-        let [low, high] = self.usable().fold(nothing, include).reduce(nothing, joined);
-        (low <= high).then_some([low, high])
-    }
-
-    /// The cells that may attain values outside an interval; `bounds` are what a cell's range was
-    /// rounded of.
-    pub fn cells_beyond(
-        &self,
-        [low, high]: [f64; 2],
-        bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync,
-    ) -> Subset {
-        let is_beyond = |[least, greatest]: [f64; 2]| least < low || greatest > high;
-        Subset::new(self.ranges.len(), |cell| {
-            // a plateau is beyond only by the rounding to single precision
-            let range = self.ranges[cell];
-            range != EMPTY && is_beyond(range.map(f64::from)) && bounds(cell).is_some_and(is_beyond)
-        })
+    /// The cell whose range stands at a place.
+    fn cell(&self, place: usize) -> u32 {
+        self.cells.as_ref().map_or(place as u32, |cells| cells[place])
     }
 
     /// Least and greatest value that the interpolant attains, by the recursive
     /// search; nothing without usable cells.
     ///
     /// Levels strictly between them have a contour, which is not so for levels
-    /// between the extreme coefficients.
+    /// between the bounds.
     pub fn attained(&self, interpolant: &dyn TriangleCubics) -> Option<[f64; 2]> {
         let at_vertices = self.at_vertices(|cell| interpolant.vertices(cell))?;
-        Some(self.attained_beyond(at_vertices, interpolant))
+        Some(self.attained_beyond(at_vertices, |cell| interpolant.cubic(cell)))
+    }
+
+    /// The same for tetrahedra.
+    pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
+        let at_vertices = self.at_vertices(|cell| interpolant.vertices(cell))?;
+        Some(self.attained_beyond(at_vertices, |cell| interpolant.cubic(cell)))
     }
 
     /// The same where it is known what is attained at the vertices.
-    pub fn attained_beyond(
+    pub fn attained_beyond<Cubic: CellCubic>(
         &self,
-        at_vertices: [f64; 2],
-        interpolant: &dyn TriangleCubics,
+        [low, high]: [f64; 2],
+        cubic: impl Fn(usize) -> Cubic + Sync,
     ) -> [f64; 2] {
-        let search =
-            |cell: usize, which: Extreme| recursive_extreme(&interpolant.cubic(cell), which).value;
-        let bounds =
-            |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
-        self.attained_by(at_vertices, &bounds, &search)
-    }
-
-    /// The same as [`CellRanges::attained`], for tetrahedra.
-    pub fn attained_in_tetrahedra(&self, interpolant: &dyn TetrahedronCubics) -> Option<[f64; 2]> {
-        let at_vertices = self.at_vertices(|cell| interpolant.vertices(cell))?;
-        Some(self.attained_beyond_in_tetrahedra(at_vertices, interpolant))
-    }
-
-    /// The same as [`CellRanges::attained_beyond`], for tetrahedra.
-    pub fn attained_beyond_in_tetrahedra(
-        &self,
-        at_vertices: [f64; 2],
-        interpolant: &dyn TetrahedronCubics,
-    ) -> [f64; 2] {
-        let search = |cell: usize, which: Extreme| {
-            recursive_extreme_in_tetrahedron(&interpolant.cubic(cell), which).value
-        };
-        let bounds =
-            |cell: usize, which: Extreme| which.of(interpolant.cubic(cell).bounds().into());
-        self.attained_by(at_vertices, &bounds, &search)
-    }
-
-    fn attained_by(&self, [low, high]: [f64; 2], bounds: &OfCell, search: &OfCell) -> [f64; 2] {
-        let low = self.attained_extreme(Extreme::Minimum, low, bounds, search);
-        let high = self.attained_extreme(Extreme::Maximum, high, bounds, search);
+        let low = self.attained_extreme(Extreme::Minimum, low, &cubic);
+        let high = self.attained_extreme(Extreme::Maximum, high, &cubic);
         [low, high]
     }
 
     /// The extreme value, which at vertices is `start`.
-    fn attained_extreme(
+    fn attained_extreme<Cubic: CellCubic>(
         &self,
         which: Extreme,
         start: f64,
-        bounds: &OfCell,
-        search: &OfCell,
+        cubic: impl Fn(usize) -> Cubic + Sync,
     ) -> f64 {
-        let promises = |bound: f64| which.better(bound, start) != start;
-        let promising = self.usable().filter(|&cell| {
-            let wide = which.of(self.ranges[cell].map(f64::from));
-            promises(wide) && promises(bounds(cell, which))
-        });
-        let searched = promising.map(|cell| {
+        let promises = |range: [f64; 2]| which.better(which.of(range), start) != start;
+        let searched = self.usable().filter_map(|place| {
+            if !promises(self.ranges[place].map(f64::from)) {
+                return None;
+            }
+            let cubic = cubic(self.cell(place) as usize);
+            // a plateau promises only by the rounding to single precision
+            cubic.finite_bounds().filter(|&range| promises(range))?;
             checkpoint();
-            search(cell, which)
+            Some(cubic.attained(which))
         });
         searched.reduce(|| start, |a, b| which.better(a, b))
     }
 
-    /// The cells that are not left out.
-    fn usable(&self) -> impl ParallelIterator<Item = usize> {
-        (0..self.ranges.len()).into_par_iter().filter(|&cell| self.ranges[cell] != EMPTY)
+    /// The least and the greatest value at the vertices of usable cells; `vertices` are those of a
+    /// cell. Nothing without usable cells.
+    fn at_vertices<const CORNERS: usize>(
+        &self,
+        vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
+    ) -> Option<[f64; 2]> {
+        let nothing = || [f64::INFINITY, f64::NEG_INFINITY];
+        let include = |range, place| {
+            let values = vertices(self.cell(place) as usize).into_iter();
+            values.fold(range, |range, value| joined(range, [value, value]))
+        };
+        let [low, high] = self.usable().fold(nothing, include).reduce(nothing, joined);
+        (low <= high).then_some([low, high])
     }
+
+    /// The places of the cells that are not left out.
+    fn usable(&self) -> impl ParallelIterator<Item = usize> {
+        (0..self.ranges.len()).into_par_iter().filter(|&place| self.ranges[place] != EMPTY)
+    }
+}
+
+/// What holds each block of ranges.
+fn blocks(ranges: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let joined = |a: [f32; 2], b: &[f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    ranges.par_chunks(BLOCK).map(|block| block.iter().fold(EMPTY, joined)).collect()
+}
+
+/// What holds two ranges; of equal numbers the first.
+pub(super) fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
 }
 
 /// Whether a range holds a level, give or take its tolerance.
@@ -265,36 +274,22 @@ pub fn holds([low, high]: [f64; 2], level: f64, tolerance: impl Fn([f64; 2]) -> 
     !outside || (low - level).max(level - high) <= tolerance([low, high])
 }
 
-/// An extreme value of a cell, or a bound of it.
-type OfCell<'a> = dyn Fn(usize, Extreme) -> f64 + Sync + 'a;
-
 /// Whether a range holds any of the levels, which ascend, to rounding.
-fn holds_any(range: [f64; 2], levels: &[f64]) -> bool {
+pub fn holds_any(range: [f64; 2], levels: &[f64]) -> bool {
     // farther ones are farther outside by more than their own rounding grows
     let next = levels.partition_point(|&level| level < range[0]);
     let nearest = &levels[next.saturating_sub(1)..levels.len().min(next + 1)];
     nearest.iter().any(|&level| holds(range, level, |range| rounding::of_range(range, level)))
 }
 
-fn of_triangle(interpolant: &dyn TriangleCubics, cell: usize) -> Option<[f64; 2]> {
-    let cubic = interpolant.cubic(cell);
-    finite_bounds(&cubic.coefficients, cubic.bounds())
-}
-
-fn of_tetrahedron(interpolant: &dyn TetrahedronCubics, cell: usize) -> Option<[f64; 2]> {
-    let cubic = interpolant.cubic(cell);
-    finite_bounds(&cubic.coefficients, cubic.bounds())
-}
-
-/// The bounds of a cubic; nothing if a coefficient is not finite.
-fn finite_bounds(coefficients: &[f64], (low, high): (f64, f64)) -> Option<[f64; 2]> {
-    // without a branch for each coefficient
-    let has_nan = coefficients.iter().fold(false, |found, c| found | c.is_nan());
-    (!has_nan && low.is_finite() && high.is_finite()).then_some([low, high])
+/// Whether all coefficients are finite.
+fn finite(coefficients: &[f64]) -> bool {
+    // without a branch for each
+    coefficients.iter().fold(true, |all, c| all & c.is_finite())
 }
 
 /// A range in single precision that holds the given one.
-fn rounded_outwards([low, high]: [f64; 2]) -> [f32; 2] {
+pub(super) fn rounded_outwards([low, high]: [f64; 2]) -> [f32; 2] {
     [rounded_down(low), -rounded_down(-high)]
 }
 
@@ -321,15 +316,16 @@ mod tests {
         let whole = [f32::NEG_INFINITY, f32::INFINITY];
         assert_eq!(rounded_outwards([-1e300, 1e300]), whole);
         assert_eq!(rounded_outwards([1e300, 1e300]), [f32::MAX, f32::INFINITY]);
-        assert_eq!(finite_bounds(&[f64::NAN], (0.0, 1.0)), None);
-        assert_eq!(finite_bounds(&[0.0, f64::INFINITY], (0.0, f64::INFINITY)), None);
+        for wrong in [f64::NAN, f64::INFINITY] {
+            assert_eq!(TriangleCubic::linear([0.0, wrong, 1.0]).finite_bounds(), None);
+        }
     }
 
     #[test]
     fn cells_of_all_blocks_are_found() {
         // a slope over three blocks and a part of one, with cells that are left out
         let bounds = |cell: usize| (cell % 7 != 6).then_some([cell as f64, cell as f64 + 2.0]);
-        let mut ranges = CellRanges::of_bounds(100, bounds);
+        let mut ranges = CellRanges::of_all(100, bounds);
         ranges.exclude(|cell| cell % 10 == 3);
         for level in [-1.0, 0.5, 31.5, 32.0, 64.25, 101.0, 200.0] {
             let holds = |cell: &u32| {
@@ -342,32 +338,23 @@ mod tests {
     }
 
     #[test]
-    fn narrowing_by_hand() {
-        let bounds = [Some([0.0, 1.0]), Some([0.0, 2.0]), None, Some([0.0, 9.0])];
-        let mut ranges = CellRanges::of_bounds(4, |cell| bounds[cell]);
-        assert_eq!(ranges.exclude(|cell| cell == 3), 1);
+    fn ranges_of_some_by_hand() {
+        let bounds = |cell: usize| (cell != 2).then_some([0.0, 9.0]);
+        let bounded = BlockRanges::new(40, bounds, |_| [0.0], |cell| cell == 3);
         // the cubic of one cell is not finite after all
-        let narrower = [Some([0.0, 0.5]), None, None, Some([1.0, 2.0])];
-        ranges.narrow_to(&Subset::new(4, |cell| cell > 0), |cell| narrower[cell]);
-        assert_eq!(ranges.ranges, [[0.0, 1.0], EMPTY, EMPTY, EMPTY]);
+        let cubic = |cell: usize| {
+            let high = if cell == 30 { f64::NAN } else { cell as f64 };
+            TriangleCubic::linear([0.0, 0.0, high])
+        };
+        let some = Subset::new(40, |cell| cell % 10 == 0 && cell > 0);
+        let ranges = CellRanges::of_some(&some, &bounded, cubic);
+        assert_eq!(ranges.ranges, [[0.0, 10.0], [0.0, 20.0], EMPTY]);
         assert_eq!((ranges.unusable(), ranges.leaves_out_any()), (2, true));
-    }
-
-    #[test]
-    fn cells_with_extremes_by_hand() {
-        let bounds = [[0.0, 1.0], [-0.5, 0.5], [0.0, 1.5], [0.1, 0.1]];
-        let ranges = CellRanges::of_bounds(4, |cell| Some(bounds[cell]));
-        let vertices = [[0.0, 1.0], [0.0, 0.1], [0.2, 0.3], [0.1, 0.1]];
-        let at_vertices = ranges.at_vertices(|cell| vertices[cell]).unwrap();
-        assert_eq!(at_vertices, [0.0, 1.0]);
-        let beyond = ranges.cells_beyond(at_vertices, |cell| Some(bounds[cell]));
-        assert_eq!(beyond.simplices().collect::<Vec<_>>(), [1, 2]);
-        // 0.1 is no number of single precision
-        let plateau = CellRanges::of_bounds(2, |_| Some([0.1, 0.1]));
-        assert!(plateau.cells_beyond([0.1, 0.1], |_| Some([0.1, 0.1])).is_empty());
-        // what is left out has no values
-        let none = CellRanges::of_bounds(2, |_| None);
-        assert_eq!(none.at_vertices(|_| [0.0]), None);
+        let left_out: Vec<usize> = (0..40).filter(|&cell| ranges.leaves_out(cell)).collect();
+        assert_eq!(left_out, [2, 3, 30]);
+        assert_eq!(ranges.cells_near(5.0, |_| 0.0), [10, 20]);
+        assert_eq!(ranges.cells_near(15.0, |_| 0.0), [20]);
+        assert_eq!(ranges.attained_beyond([0.0, 12.0], cubic), [0.0, 20.0]);
     }
 
     #[test]

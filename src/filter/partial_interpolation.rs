@@ -10,9 +10,11 @@ use super::error::FilterError;
 use super::interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles, joined};
 use super::options::{ContourOptions, InterpolantKind};
 use super::solution::{Domain, Solution};
-use crate::contour::{CellRanges, Levels};
+use crate::contour::{BlockRanges, CellCubic, CellRanges, Levels, holds_any};
 use crate::field::Field;
-use crate::interpolant::{Pci, Tricubic, reach_in_tetrahedron, reach_on_triangle};
+use crate::interpolant::{
+    Pci, Tricubic, reach_in_tetrahedron, reach_on_triangle, rough_reach_in_tetrahedron,
+};
 use crate::mesh::{SimplexMesh, Subset, TetrahedronMesh, TriangleMesh};
 
 impl Interpolation {
@@ -54,22 +56,30 @@ impl Interpolation {
         let flat = flat.and_then(|domain| Bounded::<OnTriangles, 3>::new(solution, domain));
         let solid = solution.tetrahedra.as_ref();
         let solid = solid.and_then(|domain| Bounded::<OnTetrahedra, 4>::new(solution, domain));
-        let ranges = [flat.as_ref().map(|b| b.range), solid.as_ref().map(|b| b.range)];
-        let levels = joined(ranges).map_or(Ok(Vec::new()), |range| levels.resolve(range))?;
-        let triangles = flat.map(|bounded| bounded.at(&levels));
-        let tetrahedra = solid.map(|bounded| bounded.at(&levels));
+        let at = |levels: &[f64]| {
+            let triangles = flat.as_ref().map(|bounded| bounded.at(levels));
+            (triangles, solid.as_ref().map(|bounded| bounded.at(levels)))
+        };
+        let (triangles, tetrahedra) = match levels.known()? {
+            Some(levels) => at(&levels),
+            None => {
+                let (flat, solid) = at(&[]);
+                let range =
+                    joined([flat.as_ref().map(|i| i.range), solid.as_ref().map(|i| i.range)]);
+                let levels = range.map_or(Ok(Vec::new()), |range| levels.resolve(range))?;
+                if levels.is_empty() { (flat, solid) } else { at(&levels) }
+            }
+        };
         Self::of_domains(solution, triangles, tetrahedra, diagonal)
     }
 }
 
-/// The cells of one dimension with bounds of their cubics, of which few are known.
+/// The cells of one dimension with bounds of their cubics, of which none is known.
 struct Bounded<'a, Coefficients, const CORNERS: usize> {
     mesh: &'a SimplexMesh<'a, CORNERS>,
     field: Field<'a>,
-    ranges: CellRanges,
-    /// The least and the greatest value that the cubics attain.
-    range: [f64; 2],
-    ghosts: usize,
+    ranges: BlockRanges,
+    at_vertices: [f64; 2],
     coefficients: PhantomData<Coefficients>,
 }
 
@@ -77,57 +87,56 @@ impl<'a, Coefficients, const CORNERS: usize> Bounded<'a, Coefficients, CORNERS>
 where
     Coefficients: InSome<CORNERS>,
 {
-    /// The bounds by each cell's own data, and the range of all cubics; nothing if no cell has
-    /// finite values.
+    /// The bounds by each cell's own data; nothing if no cell has finite values.
     fn new(solution: &'a Solution, domain: &'a Domain<CORNERS>) -> Option<Self> {
         let (mesh, field) = (&domain.mesh, solution.field(domain));
-        let reach = |cell| Coefficients::reach(mesh, &field, cell);
-        let mut ranges = CellRanges::of_bounds(domain.count(), reach);
-        let ghosts = domain.exclude_ghosts(&mut ranges);
-        let values = |cell: usize| mesh.simplices()[cell].map(|p| field.values[p as usize]);
-        let at_vertices = ranges.at_vertices(values)?;
-        let extreme = ranges.cells_beyond(at_vertices, reach);
-        let coefficients = Coefficients::in_some(mesh, field, &extreme);
-        coefficients.narrow(mesh, field, &mut ranges, &extreme);
-        let range = coefficients.attained_beyond(at_vertices, mesh, field, &ranges);
-        Some(Self { mesh, field, ranges, range, ghosts, coefficients: PhantomData })
+        let ranges = BlockRanges::new(
+            domain.count(),
+            |cell| Coefficients::rough_reach(mesh, &field, cell),
+            |cell| mesh.simplices()[cell].map(|point| field.values[point as usize]),
+            |cell| domain.is_ghost(cell),
+        );
+        let at_vertices = ranges.at_vertices()?;
+        Some(Self { mesh, field, ranges, at_vertices, coefficients: PhantomData })
     }
 
-    /// The cubics in the cells that hold one of the levels, which ascend.
-    fn at(self, levels: &[f64]) -> Interpolated<Coefficients> {
-        let Self { mesh, field, mut ranges, range, ghosts, .. } = self;
-        let holding = ranges.cells_near_any(levels);
-        let coefficients = Coefficients::in_some(mesh, field, &holding);
-        coefficients.narrow(mesh, field, &mut ranges, &holding);
-        Interpolated { coefficients, ranges, range, singular: 0, pde_fit: None, ghosts }
+    /// The cubics in the cells that may hold one of the levels, which ascend, or a value that is
+    /// beyond those at the vertices.
+    fn at(&self, levels: &[f64]) -> Interpolated<Coefficients> {
+        let &Self { mesh, field, ref ranges, at_vertices, .. } = self;
+        let [low, high] = at_vertices;
+        let reach = |cell| Coefficients::reach(mesh, &field, cell);
+        let is_wanted =
+            |range: [f64; 2]| range[0] < low || range[1] > high || holds_any(range, levels);
+        let cells = ranges.cells_with(reach, is_wanted);
+        let coefficients = Coefficients::in_some(mesh, field, &cells);
+        let (cells, range) = coefficients.ranges(mesh, field, &cells, ranges, at_vertices);
+        let ghosts = ranges.excluded();
+        Interpolated { coefficients, ranges: cells, range, singular: 0, pde_fit: None, ghosts }
     }
 }
 
 /// An interpolant that can be computed in some cells.
 trait InSome<const CORNERS: usize> {
-    /// The bounds of a cubic by its cell's own data.
+    /// The bounds of a cubic by its cell's own data; nothing if these are not finite.
     fn reach(mesh: &SimplexMesh<CORNERS>, field: &Field, cell: usize) -> Option<[f64; 2]>;
+
+    /// The same or wider, in less time.
+    fn rough_reach(mesh: &SimplexMesh<CORNERS>, field: &Field, cell: usize) -> Option<[f64; 2]>;
 
     /// The interpolant in some cells.
     fn in_some(mesh: &SimplexMesh<CORNERS>, field: Field, cells: &Subset) -> Self;
 
-    /// Narrows the bounds of cells in which it is known.
-    fn narrow(
+    /// The range of each of the cells in which it is known, and the least and the greatest value
+    /// that it attains, given those at the vertices.
+    fn ranges(
         &self,
         mesh: &SimplexMesh<CORNERS>,
         field: Field,
-        ranges: &mut CellRanges,
         cells: &Subset,
-    );
-
-    /// Its least and greatest value, given those at the vertices.
-    fn attained_beyond(
-        &self,
+        bounded: &BlockRanges,
         at_vertices: [f64; 2],
-        mesh: &SimplexMesh<CORNERS>,
-        field: Field,
-        ranges: &CellRanges,
-    ) -> [f64; 2];
+    ) -> (CellRanges, [f64; 2]);
 }
 
 impl InSome<3> for OnTriangles {
@@ -135,22 +144,24 @@ impl InSome<3> for OnTriangles {
         reach_on_triangle(mesh, field, cell)
     }
 
+    fn rough_reach(mesh: &TriangleMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
+        reach_on_triangle(mesh, field, cell)
+    }
+
     fn in_some(mesh: &TriangleMesh, field: Field, cells: &Subset) -> Self {
         Self::Pci(Pci::on_some(mesh, field, cells).into_centres())
     }
 
-    fn narrow(&self, mesh: &TriangleMesh, field: Field, ranges: &mut CellRanges, cells: &Subset) {
-        ranges.narrow(cells, self.cubics(mesh, field).as_ref());
-    }
-
-    fn attained_beyond(
+    fn ranges(
         &self,
-        at_vertices: [f64; 2],
         mesh: &TriangleMesh,
         field: Field,
-        ranges: &CellRanges,
-    ) -> [f64; 2] {
-        ranges.attained_beyond(at_vertices, self.cubics(mesh, field).as_ref())
+        cells: &Subset,
+        bounded: &BlockRanges,
+        at_vertices: [f64; 2],
+    ) -> (CellRanges, [f64; 2]) {
+        let cubics = self.cubics(mesh, field);
+        of_some(cells, bounded, at_vertices, |cell| cubics.cubic(cell))
     }
 }
 
@@ -159,27 +170,35 @@ impl InSome<4> for OnTetrahedra {
         reach_in_tetrahedron(mesh, field, cell)
     }
 
+    fn rough_reach(mesh: &TetrahedronMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
+        rough_reach_in_tetrahedron(mesh, field, cell)
+    }
+
     fn in_some(mesh: &TetrahedronMesh, field: Field, cells: &Subset) -> Self {
         Self::Tricubic(Tricubic::in_some(mesh, field, cells).into_faces())
     }
 
-    fn narrow(
+    fn ranges(
         &self,
         mesh: &TetrahedronMesh,
         field: Field,
-        ranges: &mut CellRanges,
         cells: &Subset,
-    ) {
-        ranges.narrow_tetrahedra(cells, self.cubics(mesh, field).as_ref());
-    }
-
-    fn attained_beyond(
-        &self,
+        bounded: &BlockRanges,
         at_vertices: [f64; 2],
-        mesh: &TetrahedronMesh,
-        field: Field,
-        ranges: &CellRanges,
-    ) -> [f64; 2] {
-        ranges.attained_beyond_in_tetrahedra(at_vertices, self.cubics(mesh, field).as_ref())
+    ) -> (CellRanges, [f64; 2]) {
+        let cubics = self.cubics(mesh, field);
+        of_some(cells, bounded, at_vertices, |cell| cubics.cubic(cell))
     }
+}
+
+/// The ranges of some cells whose cubics are known, and what is attained.
+fn of_some<Cubic: CellCubic>(
+    cells: &Subset,
+    bounded: &BlockRanges,
+    at_vertices: [f64; 2],
+    cubic: impl Fn(usize) -> Cubic + Sync,
+) -> (CellRanges, [f64; 2]) {
+    let ranges = CellRanges::of_some(cells, bounded, &cubic);
+    let range = ranges.attained_beyond(at_vertices, cubic);
+    (ranges, range)
 }

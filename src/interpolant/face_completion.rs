@@ -27,9 +27,12 @@ use rayon::prelude::*;
 
 use super::hermite::quadratic_precision_of;
 use super::limit::limited;
+use super::per_cell::PerCell;
 use crate::bernstein::{Barycentric4, TetrahedronCubic};
 use crate::field::Field;
-use crate::mesh::{Faces, Side, TetrahedronFrame, TetrahedronMesh, Vector, ascending_corners};
+use crate::mesh::{
+    Faces, Side, Subset, TetrahedronFrame, TetrahedronMesh, Vector, ascending_corners,
+};
 
 /// What a tetrahedron says of each of its faces, by the opposite corner.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,36 +59,39 @@ const ROUNDING: f64 = 1e-13;
 const BLOCK: usize = 4096;
 
 /// For each face of the tetrahedra that are wanted, what is to be added to the coefficient that
-/// reproduces quadratics; no more than the face's other coefficients differ by. Zero for the
-/// other faces.
+/// reproduces quadratics; no more than the face's other coefficients differ by.
 pub(super) fn face_corrections(
     mesh: &TetrahedronMesh,
     field: &Field,
     faces: &Faces,
     is_wanted: impl Fn(usize) -> bool + Sync,
-) -> Vec<f64> {
-    let is_wanted =
-        |face: &usize| faces.sides(*face).iter().any(|side| is_wanted(side.tetrahedron()));
-    let mut corrections = vec![0.0; faces.count()];
-    let mut listed = Listed::new(mesh);
+) -> PerCell<f64> {
+    let has_wanted = |face| faces.sides(face).iter().any(|side| is_wanted(side.tetrahedron()));
+    let wanted = Subset::new(faces.count(), has_wanted);
+    let mut corrections = vec![0.0; wanted.len()];
+    let (mut rest, mut numbers) = (&mut corrections[..], wanted.simplices().peekable());
+    let (mut block, mut listed) = (Vec::new(), Listed::new(mesh));
     let points = mesh.points().len();
     for begin in (0..points).step_by(BLOCK) {
-        let block = faces.of_least_points(begin..points.min(begin + BLOCK));
-        let wanted = block.clone().filter(is_wanted);
-        listed.list(wanted.flat_map(|face| faces.sides(face)));
+        let end = faces.of_least_points(begin..points.min(begin + BLOCK)).end;
+        block.clear();
+        block.extend(std::iter::from_fn(|| numbers.next_if(|&face| face < end)).map(|n| n as u32));
+        listed.list(block.iter().flat_map(|&face| faces.sides(face as usize)));
         let tetrahedra = listed.tetrahedra.par_iter();
         let estimates: Vec<Estimate> = tetrahedra
             .map(|&tetrahedron| estimate(mesh, field, faces, tetrahedron as usize))
             .collect();
         let of_side = |side: &Side| &estimates[listed.places[side.tetrahedron()] as usize];
-        let numbered = corrections[block.clone()].par_iter_mut().zip(block);
-        numbered.filter(|(_, face)| is_wanted(face)).for_each(|(correction, face)| {
-            let sides = faces.sides(face);
-            let wanted = mean_of_sides(sides, of_side);
-            *correction = limited(wanted, &sides[0].face(mesh), mesh.points(), field);
+        let of_block = rest.split_off_mut(..block.len()).unwrap_or_default();
+        of_block.par_iter_mut().zip(&block).for_each(|(correction, &face)| {
+            let sides = faces.sides(face as usize);
+            let mean = mean_of_sides(sides, of_side);
+            *correction = limited(mean, &sides[0].face(mesh), mesh.points(), field);
         });
     }
-    corrections
+    drop(numbers);
+    let are_all = wanted.len() == faces.count();
+    if are_all { PerCell::All(corrections) } else { PerCell::Some(wanted, corrections) }
 }
 
 /// Some tetrahedra of a mesh, each with its place in the list.

@@ -53,7 +53,7 @@ impl Known {
 }
 
 /// The lesser and the greater of two numbers.
-fn range_of_two(a: f64, b: f64) -> [f64; 2] {
+pub(super) fn range_of_two(a: f64, b: f64) -> [f64; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 

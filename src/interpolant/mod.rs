@@ -27,7 +27,7 @@ pub use linear::Linear;
 pub use pci::{Centres, Pci};
 pub use pde_fit::PdeFit;
 pub use pieces::{Pieces, Taylor};
-pub use reach::{reach_in_tetrahedron, reach_on_triangle};
+pub use reach::{reach_in_tetrahedron, reach_on_triangle, rough_reach_in_tetrahedron};
 pub use tricubic::{FaceCoefficients, Tricubic};
 
 use crate::bernstein::{SegmentCubic, TetrahedronCubic, TriangleCubic};

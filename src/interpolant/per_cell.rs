@@ -1,8 +1,8 @@
-//! What is kept for the cells of a mesh.
+//! What is kept for the cells of a mesh, or their faces.
 
 use crate::mesh::Subset;
 
-/// Something for each cell of a mesh, for some of its cells, or for none.
+/// Something for each cell (or face) of a mesh, for some of them, or for none.
 #[derive(Clone, Debug, Default)]
 pub(super) enum PerCell<T> {
     /// For each cell, in their order.

@@ -9,14 +9,14 @@
 //!
 //! Source: ours.
 
-use super::hermite::{Known, joined};
+use super::hermite::{Known, beside, joined, range_of_two};
 use super::pci;
-use crate::bernstein::{TetrahedronCubic, TriangleCubic};
+use crate::bernstein::{TetrahedronCubic, TriangleCubic, value_bounds};
 use crate::field::Field;
-use crate::mesh::{TetrahedronMesh, TriangleMesh, ascending_corners};
+use crate::mesh::{TetrahedronMesh, TriangleMesh, Vector, ascending_corners};
 
-/// Between which numbers all coefficients of a triangle's cubic are, without a PDE; nothing if
-/// they are not finite.
+/// Between which numbers the values of a triangle's cubic are, without a PDE; nothing if one of
+/// what they come of is not finite.
 pub fn reach_on_triangle(mesh: &TriangleMesh, field: &Field, triangle: usize) -> Option<[f64; 2]> {
     of_triangle(&pci::quadratic_precision(mesh, field, triangle))
 }
@@ -36,20 +36,80 @@ pub fn reach_in_tetrahedron(
     let [first, second, third, fourth] = [0, 1, 2, 3].map(|opposite| {
         let centre = known.amid(TetrahedronCubic::FACE_VERTICES[opposite]);
         let [one, two, three] = edges[opposite];
-        widened(centre, joined(joined(one, two), three))
+        moved(centre, joined(joined(one, two), three))
     });
-    Some(joined(joined(first?, second?), joined(third?, fourth?)))
+    let amid_faces = joined(joined(first?, second?), joined(third?, fourth?));
+    let on_edges = joined(joined(joined(ab, ac), joined(ad, bc)), joined(bd, cd));
+    Some(value_bounds(on_edges, amid_faces, TetrahedronCubic::SHARE_OF_FACES))
 }
+
+/// The same, or numbers a little further outside, in less time.
+///
+/// All corners are treated alike, for computers do four such things at a time: what belongs to no
+/// edge, from a corner to itself, is the corner's value, which is in the range anyway.
+pub fn rough_reach_in_tetrahedron(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    tetrahedron: usize,
+) -> Option<[f64; 2]> {
+    let points = mesh.tetrahedra()[tetrahedron].map(|point| point as usize);
+    let values = points.map(|point| field.values[point]);
+    let [x, y, z] = [0, 1, 2].map(|axis| points.map(|point| mesh.points()[point][axis]));
+    let (mut least, mut greatest) = (values, values);
+    // of the coefficients beside each corner, those at its own edges
+    let mut at_corner = values.map(|value| -2.0 * value);
+    for (from, point) in points.into_iter().enumerate() {
+        let gradient = &field.gradients[point];
+        let mut sum = 0.0;
+        for to in 0..4 {
+            let edge = Vector::new(x[to] - x[from], y[to] - y[from], z[to] - z[from]);
+            let coefficient = beside(values[from], gradient, &edge);
+            least[to] = if coefficient < least[to] { coefficient } else { least[to] };
+            greatest[to] = if coefficient > greatest[to] { coefficient } else { greatest[to] };
+            at_corner[to] += coefficient;
+            sum += coefficient;
+        }
+        at_corner[from] += sum;
+    }
+    let [low, high] = [
+        range_of_two(range_of_two(least[0], least[1])[0], range_of_two(least[2], least[3])[0])[0],
+        range_of_two(
+            range_of_two(greatest[0], greatest[1])[1],
+            range_of_two(greatest[2], greatest[3])[1],
+        )[1],
+    ];
+    // both ends of each edge were counted
+    let all = (at_corner[0] + at_corner[1] + at_corner[2] + at_corner[3]) / 2.0;
+    let vertices = values[0] + values[1] + values[2] + values[3];
+    if !(all + vertices).is_finite() {
+        return reach_in_tetrahedron(mesh, field, tetrahedron);
+    }
+    let amid = [0, 1, 2, 3].map(|opposite| {
+        let centre = (all - at_corner[opposite]) / 4.0 - (vertices - values[opposite]) / 6.0;
+        [centre, centre]
+    });
+    let [lowest, highest] = joined(joined(amid[0], amid[1]), joined(amid[2], amid[3]));
+    // a face's spread is no more than the tetrahedron's
+    let spread = high - low;
+    let rounding = ROUNDING * low.abs().max(high.abs());
+    let amid_faces = [lowest - spread - rounding, highest + spread + rounding];
+    let [low, high] = value_bounds([low, high], amid_faces, TetrahedronCubic::SHARE_OF_FACES);
+    Some([low - rounding, high + rounding])
+}
+
+/// Sums of this order of size, in another order, differ by less than this part of the greatest.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 fn of_triangle(cubic: &TriangleCubic) -> Option<[f64; 2]> {
     let [a, ab, ac, ba, centre, ca, b, bc, cb, c] = cubic.coefficients;
     let others = [a, b, c, ab, ac, ba, ca, bc, cb].map(|other| [other, other]);
-    widened(centre, others.into_iter().fold([a, a], joined))
+    let others = others.into_iter().fold([a, a], joined);
+    Some(value_bounds(others, moved(centre, others)?, TriangleCubic::SHARE_OF_CENTRE))
 }
 
-/// The least and the greatest coefficient of a triangle, if the one amid it may move by what
-/// the others, which have the given range, differ by.
-fn widened(centre: f64, others: [f64; 2]) -> Option<[f64; 2]> {
+/// Where neighbours may move the coefficient amid a triangle: no farther than the others, which
+/// have the given range, differ by.
+fn moved(centre: f64, others: [f64; 2]) -> Option<[f64; 2]> {
     if !centre.is_finite() {
         // as it is if any of the others, of which it is a sum, is not
         return None;
@@ -57,8 +117,7 @@ fn widened(centre: f64, others: [f64; 2]) -> Option<[f64; 2]> {
     let spread = others[1] - others[0];
     let spread = if spread.is_finite() { spread } else { 0.0 };
     // what is finite stays so
-    let reach = [(centre - spread).max(f64::MIN), (centre + spread).min(f64::MAX)];
-    Some(joined(others, reach))
+    Some([(centre - spread).max(f64::MIN), (centre + spread).min(f64::MAX)])
 }
 
 #[cfg(test)]
@@ -73,14 +132,19 @@ mod tests {
     #[test]
     fn reaches_by_hand() {
         assert_eq!(reach([1.0; 3], 1.0), Some([1.0, 1.0]));
-        // the others differ by 3
-        assert_eq!(reach([0.0, 3.0, 3.0], 2.0), Some([-1.0, 5.0]));
-        assert_eq!(reach([0.0, 3.0, 3.0], 0.0), Some([-3.0, 3.0]));
+        // the others differ by 3, so that the coefficient is up to 5, and counts for 2/9
+        let near = |found: Option<[f64; 2]>, [low, high]: [f64; 2]| {
+            let [least, greatest] = found.unwrap();
+            (low - 1e-3..=low).contains(&least) && (high..high + 1e-3).contains(&greatest)
+        };
+        assert!(near(reach([0.0, 3.0, 3.0], 2.0), [-2.0 / 9.0, 3.0 + 4.0 / 9.0]));
+        assert!(near(reach([0.0, 3.0, 3.0], 0.0), [-2.0 / 3.0, 3.0]));
     }
 
     #[test]
     fn reaches_at_the_end_of_numbers() {
-        assert_eq!(reach([0.0, 1e308, 1e308], 1e308), Some([0.0, f64::MAX]));
+        let [low, high] = reach([0.0, 1e308, 1e308], 1e308).unwrap();
+        assert!(low == 0.0 && 1.1e308 < high && high < 1.2e308);
         // a coefficient that differs too much for a number stays where it is
         assert_eq!(reach([-1e308, 1e308, 1e308], 0.0), Some([-1e308, 1e308]));
         for wrong in [f64::NAN, f64::INFINITY] {

@@ -116,7 +116,7 @@ impl<'a> Tricubic<'a> {
             .collect();
         let singular = equations.iter().filter(|equations| equations.is_none()).count();
         let equations = equations.into_iter().map(Option::unwrap_or_default).collect();
-        let corrections = least_squares(&numbered, equations);
+        let corrections = PerCell::All(least_squares(&numbered, equations));
         let coefficients = PerCell::All(corrected(without, &numbered, &corrections));
         let faces = FaceCoefficients { coefficients, singular };
         Self { mesh, field, faces: Cow::Owned(faces) }
@@ -186,18 +186,22 @@ fn amid_faces(mesh: &TetrahedronMesh, field: &Field, tetrahedron: usize) -> [f64
     TetrahedronCubic::FACES.map(|position| start.coefficients[position])
 }
 
-/// For each tetrahedron the coefficients amid its faces, and what is to be added to that of
-/// each face.
-fn corrected(mut coefficients: Vec<[f64; 4]>, faces: &Faces, corrections: &[f64]) -> Vec<[f64; 4]> {
+/// For each tetrahedron the coefficients amid its faces, with what is to be added to that of each
+/// face.
+fn corrected(
+    mut coefficients: Vec<[f64; 4]>,
+    faces: &Faces,
+    corrections: &PerCell<f64>,
+) -> Vec<[f64; 4]> {
     let numbered = coefficients.par_iter_mut().zip(faces.of_tetrahedra());
     numbered.for_each(|(coefficients, faces)| correct(coefficients, faces, corrections));
     coefficients
 }
 
 /// Adds to the coefficients amid a tetrahedron's faces what is to be added to each.
-fn correct(coefficients: &mut [f64; 4], faces: &[u32; 4], corrections: &[f64]) {
+fn correct(coefficients: &mut [f64; 4], faces: &[u32; 4], corrections: &PerCell<f64>) {
     for (coefficient, face) in coefficients.iter_mut().zip(faces) {
-        *coefficient += corrections[*face as usize];
+        *coefficient += corrections.get(*face as usize).copied().unwrap_or_default();
     }
 }
 

@@ -79,17 +79,18 @@ impl Faces {
                 *side = *sorted;
             }
         });
-        Self::numbered(mesh, sides, &ends)
+        Self::numbered(mesh, sides, ends)
     }
 
     /// Faces from sides in the order of their faces, those of each least point up to an end.
-    fn numbered(mesh: &TetrahedronMesh, sides: Vec<Side>, ends: &[u32]) -> Self {
+    fn numbered(mesh: &TetrahedronMesh, sides: Vec<Side>, ends: Vec<u32>) -> Self {
         let mut of_tetrahedra = vec![[0; 4]; mesh.tetrahedra().len()];
         let mut offsets = Vec::with_capacity(sides.len() / 2 + 1);
-        let mut of_points = Vec::with_capacity(ends.len() + 1);
+        // where the sides of a point end is not asked again
+        let mut of_points = ends;
         let mut begin = 0;
-        for &end in ends {
-            of_points.push(offsets.len() as u32);
+        for of_point in &mut of_points {
+            let end = std::mem::replace(of_point, offsets.len() as u32);
             let mut before = None;
             for place in begin..end {
                 let side = sides[place as usize];
@@ -154,7 +155,9 @@ fn by_least_point(mesh: &TetrahedronMesh) -> (Vec<Side>, Vec<u32>) {
         let others = [1, 2, 3].map(|step| corners[(side.opposite() + step) % 4]);
         others[0].min(others[1]).min(others[2]) as usize
     };
-    let mut ends = vec![0_u32; mesh.points().len()];
+    // one more is to come
+    let mut ends = Vec::with_capacity(mesh.points().len() + 1);
+    ends.resize(mesh.points().len(), 0_u32);
     all().for_each(|side| ends[least(side)] += 1);
     let mut sum = 0;
     for end in &mut ends {

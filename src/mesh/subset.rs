@@ -13,6 +13,7 @@ pub struct Subset {
     /// How many come before each word.
     before: Vec<u32>,
     count: usize,
+    simplex_count: usize,
 }
 
 /// Simplices whose bits stand in one word.
@@ -21,12 +22,17 @@ const WORD: usize = u64::BITS as usize;
 impl Subset {
     /// Those of so many simplices that `belongs` names.
     pub fn new(simplices: usize, belongs: impl Fn(usize) -> bool + Sync) -> Self {
-        let word = |number: usize| {
+        Self::of_words(simplices, |number| {
             let first = number * WORD;
             let bits = (first..simplices.min(first + WORD)).filter(|&simplex| belongs(simplex));
             bits.fold(0_u64, |word, simplex| word | 1 << (simplex % WORD))
-        };
-        let words: Vec<u64> = (0..simplices.div_ceil(WORD)).into_par_iter().map(word).collect();
+        })
+    }
+
+    /// Those of so many simplices that words of bits name: `word` gives those of each 64 that follow
+    /// each other, the first in the lowest bit.
+    pub fn of_words(simplices: usize, word: impl Fn(usize) -> u64 + Sync) -> Self {
+        let words: Vec<u64> = (0..simplices.div_ceil(WORD)).into_par_iter().map(&word).collect();
         let mut count = 0;
         let counted = words.iter().map(|word| {
             let before = count;
@@ -34,7 +40,12 @@ impl Subset {
             before
         });
         let before = counted.collect();
-        Self { words, before, count: count as usize }
+        Self { words, before, count: count as usize, simplex_count: simplices }
+    }
+
+    /// None of so many simplices.
+    pub fn none(simplices: usize) -> Self {
+        Self::of_words(simplices, |_| 0)
     }
 
     /// How many there are.
@@ -60,6 +71,11 @@ impl Subset {
         (word >> bit & 1 == 1).then_some(place as usize)
     }
 
+    /// How many simplices the mesh has.
+    pub fn simplex_count(&self) -> usize {
+        self.simplex_count
+    }
+
     /// Their numbers, ascending.
     pub fn simplices(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().flat_map(|(number, &word)| {
@@ -75,6 +91,9 @@ impl Subset {
 
     /// These, and all that share a side with one of them: all points but one.
     pub fn with_neighbours<const CORNERS: usize>(&self, mesh: &SimplexMesh<CORNERS>) -> Self {
+        if self.is_empty() {
+            return self.clone();
+        }
         let simplices = mesh.simplices();
         let mut is_near = vec![false; mesh.points().len()];
         for point in self.simplices().flat_map(|simplex| simplices[simplex]) {

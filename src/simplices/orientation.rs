@@ -39,9 +39,8 @@ pub fn orient(
 ) -> Result<Lie, Reason> {
     let mut volumes = Volumes::default();
     for corners in tetrahedra {
-        let volume = sixfold_volume(corners, positions);
+        let volume = orient_one(corners, positions);
         if volume < 0.0 {
-            corners.swap(2, 3);
             volumes.negative -= volume;
         } else {
             volumes.positive += volume;
@@ -56,6 +55,15 @@ pub fn orient(
     } else {
         Ok(Lie::Apart)
     }
+}
+
+/// Turns a tetrahedron so that its volume is positive; returns six times the volume that it had.
+pub fn orient_one(corners: &mut [u32; 4], positions: &[Vector]) -> f64 {
+    let volume = sixfold_volume(corners, positions);
+    if volume < 0.0 {
+        corners.swap(2, 3);
+    }
+    volume
 }
 
 /// Six times the volume of a tetrahedron.

@@ -1,11 +1,14 @@
 //! The cells of a grid as triangles and tetrahedra.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::cell_type::CellCounts;
 use super::left_out::LeftOut;
-use super::orientation::Lie;
-use super::splitter::Splitter;
+use super::orientation::{Lie, orient_one};
+use super::splitter::{Splitter, is_tetrahedron};
 use crate::interruption::checkpoint;
 use crate::mesh::Vector;
 use crate::vtk::{ArrayError, DataArray, UnstructuredGrid, Values};
@@ -75,6 +78,9 @@ impl SplitGrid {
     pub fn new(grid: &UnstructuredGrid) -> Result<Self, SplitError> {
         let points = vectors(&grid.points).ok_or(SplitError::Points)?;
         check(grid, points.len())?;
+        if let Some(tetrahedra) = tetrahedra_alone(grid, &points) {
+            return Ok(Self { points, tetrahedra, ..Self::default() });
+        }
         let mut split = Self { points, ..Self::default() };
         // most grids are of simplices
         split.triangles.reserve(grid.types.iter().filter(|&&cell_type| cell_type == 5).count());
@@ -94,6 +100,31 @@ impl SplitGrid {
         }
         Ok(split)
     }
+}
+
+/// The cells of a grid of nothing but tetrahedra, of which none has collapsed: what [`Splitter`]
+/// makes of them, all at once, for most large grids are such ones.
+fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pieces<4>> {
+    let count = grid.types.len();
+    let (offsets, types) = (grid.cells.offsets(), &grid.types);
+    let are_fours = offsets.par_iter().enumerate().all(|(n, &offset)| offset == 4 * n as i64);
+    if count == 0 || !are_fours || !types.par_iter().all(|&cell_type| cell_type == 10) {
+        return None;
+    }
+    let (cells, _) = grid.cells.connectivity().as_chunks::<4>();
+    let has_collapsed = AtomicBool::new(false);
+    let cells = cells.par_iter().map(|points| {
+        checkpoint();
+        if !is_tetrahedron(points) {
+            has_collapsed.store(true, Ordering::Relaxed);
+        }
+        let mut corners = points.map(|point| point as u32);
+        orient_one(&mut corners, positions);
+        corners
+    });
+    let simplices = cells.collect();
+    let is_whole = !has_collapsed.into_inner();
+    is_whole.then(|| Pieces { simplices, parents: (0..count as u32).collect() })
 }
 
 /// Refuses grids whose numbers are not those of points, or do not fit 32 bits.
@@ -116,5 +147,41 @@ pub fn vectors(array: &DataArray) -> Option<Vec<Vector>> {
     match &array.values {
         Values::F64(values) => vectors(values),
         _ => vectors(&array.to_f64()?),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Tetrahedra between the first points of a cube, and perhaps another cell.
+    fn grid(cells: &[[i64; 4]], other: Option<(u8, &[i64])>) -> UnstructuredGrid {
+        let corner = |n: u8| [n & 1, n >> 1 & 1, n >> 2].map(f64::from);
+        let points: Vec<f64> = (0..8).flat_map(corner).collect();
+        let mut grid = UnstructuredGrid::new(DataArray::new("Points", 3, points));
+        cells.iter().for_each(|cell| grid.push_cell(10, cell));
+        if let Some((cell_type, points)) = other {
+            grid.push_cell(cell_type, points);
+        }
+        grid
+    }
+
+    #[test]
+    fn tetrahedra_alone_are_as_among_others() {
+        let cells = [[0, 1, 2, 4], [1, 0, 2, 4], [1, 2, 4, 7], [0, 1, 2, 3]];
+        let vertex: &[i64] = &[0];
+        let alone = SplitGrid::new(&grid(&cells, None)).unwrap();
+        let general = SplitGrid::new(&grid(&cells, Some((1, vertex)))).unwrap();
+        assert_eq!(alone.tetrahedra, general.tetrahedra);
+        assert_eq!(alone.tetrahedra.simplices[..2], [[0, 1, 2, 4], [1, 0, 4, 2]]);
+        assert!(tetrahedra_alone(&grid(&cells, Some((1, vertex))), &alone.points).is_none());
+    }
+
+    #[test]
+    fn a_collapsed_tetrahedron_among_others_is_left_out() {
+        let split =
+            SplitGrid::new(&grid(&[[0, 1, 2, 4], [1, 1, 2, 4], [7, 4, 2, 1]], None)).unwrap();
+        assert_eq!(split.tetrahedra.parents, [0, 2]);
+        assert_eq!(split.left_out.total(), 1);
     }
 }

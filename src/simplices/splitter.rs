@@ -151,7 +151,7 @@ impl<'a> Splitter<'a> {
 }
 
 /// Whether a solid of these points is a tetrahedron that has not collapsed.
-fn is_tetrahedron(points: &[i64]) -> bool {
+pub fn is_tetrahedron(points: &[i64]) -> bool {
     points.len() == 4 && (1..4).all(|n| !points[..n].contains(&points[n]))
 }
 

@@ -89,9 +89,10 @@ fn lines_between(
     lines.counts.unusable = ranges.unusable();
     let resolution = resolution.no_finer_than(interpolant.mesh());
     for (place, &level) in levels.iter().enumerate() {
-        let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+        let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
         let cells = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
-        let rounding = Rounding::new(interpolant.mesh(), bounds, level, &cells);
+        let of_coefficients = |cell: usize| interpolant.cubic(cell).bounds().into();
+        let rounding = Rounding::new(interpolant.mesh(), of_coefficients, level, &cells);
         let walls = walls(&rounding, &cells);
         let tracing = Tracing { level, rounding: &rounding, walls: &walls, method, resolution };
         lines.counts.active += cells.len();

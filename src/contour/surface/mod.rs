@@ -115,7 +115,7 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 
 /// The numbers of the cells that may hold a level.
 fn active_cells(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<u32> {
-    let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+    let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
     ranges.cells_at(level, |range| rounding::of_range(range, level), bounds)
 }
 

@@ -145,13 +145,13 @@ fn judge(
     let mesh = interpolant.mesh();
     let corners = mesh.corners(number as usize);
     let cubic = interpolant.cubic(number as usize);
-    let bounds = cubic.bounds().into();
-    if !holds(bounds, level, |range| rounding::of_range(range, level)) {
+    if !holds(cubic.value_bounds(), level, |range| rounding::of_range(range, level)) {
         return Judged::Inactive;
     }
     if is_sliver(&corners) {
         return Judged::Sliver;
     }
+    let bounds = cubic.bounds().into();
     let above_level = TetrahedronCubic::new(cubic.coefficients.map(|c| c - level));
     let is_clear =
         |values: &[f64], near: f64| values.iter().fold(true, |all, v| all & (v.abs() > near));

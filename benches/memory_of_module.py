@@ -68,10 +68,13 @@ def main() -> None:
 
 
 def measured(job: Callable[[], Any]) -> tuple[Any, float, float]:
-    """What a job makes, and by how many megabytes memory grows: at most, and in the end."""
-    before = megabytes("VmRSS")
+    """What a job makes, and by how many megabytes memory grows: at most, and in the end. What of
+    programs is read in meanwhile does not count.
+    """
+    before, programs = megabytes("VmRSS"), megabytes("RssFile")
     Path("/proc/self/clear_refs").write_text("5")  # the peak is counted from here
     made = job()
+    before += megabytes("RssFile") - programs
     return made, megabytes("VmHWM") - before, megabytes("VmRSS") - before
 
 

@@ -36,7 +36,7 @@ use crate::mesh::{
 
 /// What a tetrahedron says of each of its faces, by the opposite corner.
 #[derive(Clone, Copy, Debug, Default)]
-struct Estimate {
+pub(super) struct Estimate {
     /// What is to be added to the coefficients that reproduce quadratics.
     corrections: [f64; 4],
     /// How well each is determined: the inverse of its variance.
@@ -54,36 +54,34 @@ const VALUE: f64 = 0.01;
 /// numbers determine those of least size.
 const ROUNDING: f64 = 1e-13;
 
-/// Points whose faces are treated at a time: what their tetrahedra say need not be kept for the
-/// whole mesh then. Most tetrahedra have all their faces in one block, none in more than two.
-const BLOCK: usize = 4096;
+/// Faces that are treated at a time: what their tetrahedra say need not be kept for the whole mesh
+/// then. Most tetrahedra have all their faces in one block, none in more than two.
+const BLOCK: usize = 1 << 15;
 
 /// For each face of the tetrahedra that are wanted, what is to be added to the coefficient that
-/// reproduces quadratics; no more than the face's other coefficients differ by.
+/// reproduces quadratics; no more than the face's other coefficients differ by. `estimate` is what
+/// a tetrahedron that has a wanted one, or is one, says.
 pub(super) fn face_corrections(
     mesh: &TetrahedronMesh,
     field: &Field,
     faces: &Faces,
     is_wanted: impl Fn(usize) -> bool + Sync,
+    estimate: impl Fn(usize) -> Estimate + Sync,
 ) -> PerCell<f64> {
     let has_wanted = |face| faces.sides(face).iter().any(|side| is_wanted(side.tetrahedron()));
     let wanted = Subset::new(faces.count(), has_wanted);
     let mut corrections = vec![0.0; wanted.len()];
-    let (mut rest, mut numbers) = (&mut corrections[..], wanted.simplices().peekable());
+    let mut numbers = wanted.simplices();
     let (mut block, mut listed) = (Vec::new(), Listed::new(mesh));
-    let points = mesh.points().len();
-    for begin in (0..points).step_by(BLOCK) {
-        let end = faces.of_least_points(begin..points.min(begin + BLOCK)).end;
+    for corrections in corrections.chunks_mut(BLOCK) {
         block.clear();
-        block.extend(std::iter::from_fn(|| numbers.next_if(|&face| face < end)).map(|n| n as u32));
+        block.extend(numbers.by_ref().take(corrections.len()).map(|face| face as u32));
         listed.list(block.iter().flat_map(|&face| faces.sides(face as usize)));
         let tetrahedra = listed.tetrahedra.par_iter();
-        let estimates: Vec<Estimate> = tetrahedra
-            .map(|&tetrahedron| estimate(mesh, field, faces, tetrahedron as usize))
-            .collect();
+        let estimates: Vec<Estimate> =
+            tetrahedra.map(|&tetrahedron| estimate(tetrahedron as usize)).collect();
         let of_side = |side: &Side| &estimates[listed.places[side.tetrahedron()] as usize];
-        let of_block = rest.split_off_mut(..block.len()).unwrap_or_default();
-        of_block.par_iter_mut().zip(&block).for_each(|(correction, &face)| {
+        corrections.par_iter_mut().zip(&block).for_each(|(correction, &face)| {
             let sides = faces.sides(face as usize);
             let mean = mean_of_sides(sides, of_side);
             *correction = limited(mean, &sides[0].face(mesh), mesh.points(), field);
@@ -134,7 +132,12 @@ fn mean_of_sides<'a>(sides: &[Side], estimate: impl Fn(&Side) -> &'a Estimate) -
 /// The corrections that continue a tetrahedron's cubic into its neighbours'.
 ///
 /// Sums are taken in the order of points' numbers, so that no bit depends on that of corners.
-fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: usize) -> Estimate {
+pub(super) fn estimate(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    faces: &Faces,
+    tetrahedron: usize,
+) -> Estimate {
     let points = mesh.tetrahedra()[tetrahedron];
     let (order, _) = ascending_corners(&points);
     let points = order.map(|corner| points[corner]);
@@ -163,6 +166,12 @@ fn estimate(mesh: &TetrahedronMesh, field: &Field, faces: &Faces, tetrahedron: u
         estimate.weights[corner] = sorted.weights[place];
     }
     estimate
+}
+
+/// Whether there is a face of a tetrahedron beyond which there is no other: then it asks its
+/// neighbours' neighbours, too.
+pub(super) fn asks_further(mesh: &TetrahedronMesh, faces: &Faces, tetrahedron: usize) -> bool {
+    (0..4).any(|corner| faces.beyond(mesh, tetrahedron, corner).is_none())
 }
 
 /// The points beyond the other faces of the neighbours, ascending: on the boundary

@@ -15,10 +15,11 @@
 use std::borrow::Cow;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::TetrahedronCubics;
 use super::equation::Equation;
-use super::face_completion::face_corrections;
+use super::face_completion::{asks_further, estimate, face_corrections};
 use super::face_equations::{FaceEquations, face_equations};
 use super::hermite::{hermite, hermite_on_edge, quadratic_precision};
 use super::least_squares::least_squares;
@@ -74,11 +75,15 @@ impl<'a> Tricubic<'a> {
     ///
     /// It takes time and memory for them and their neighbours alone.
     pub fn in_some(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, tetrahedra: &Subset) -> Self {
-        let around = with_all_that_speak(mesh, tetrahedra);
+        let speaking = tetrahedra.with_neighbours(mesh);
+        let around = speaking.with_neighbours(mesh);
         if around.len() > mesh.tetrahedra().len() / 2 {
             return Self::new(mesh, field);
         }
-        let coefficients = completed_in(mesh, &field, tetrahedra, &around);
+        let around = Surroundings::new(mesh, around);
+        let far = Surroundings::of_outermost(mesh, &speaking, &around);
+        drop(speaking);
+        let coefficients = completed_in(&field, tetrahedra, &around, &far);
         Self::without_pde(mesh, field, PerCell::Some(tetrahedra.clone(), coefficients))
     }
 
@@ -147,37 +152,74 @@ impl<'a> Tricubic<'a> {
 
 /// For each tetrahedron the coefficients amid its faces, from the neighbours.
 fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 4]> {
-    let corrections = face_corrections(mesh, field, faces, |_| true);
+    let estimate = |tetrahedron| estimate(mesh, field, faces, tetrahedron);
+    let corrections = face_corrections(mesh, field, faces, |_| true, estimate);
     let tetrahedra = (0..mesh.tetrahedra().len()).into_par_iter();
     let start = tetrahedra.map(|tetrahedron| amid_faces(mesh, field, tetrahedron));
     corrected(start.collect(), faces, &corrections)
 }
 
-/// The same for some tetrahedra only; `around` are those and all that they ask.
+/// The same for some tetrahedra only. They and their neighbours have a say in their faces, and listen
+/// to their neighbours, which are `around` them; some listen farther.
 fn completed_in(
-    mesh: &TetrahedronMesh,
     field: &Field,
     tetrahedra: &Subset,
-    around: &Subset,
+    around: &Surroundings,
+    far: &(Surroundings, FxHashMap<u32, u32>),
 ) -> Vec<[f64; 4]> {
-    let part = mesh.part(around);
-    let faces = Faces::new(&part);
-    let is_wanted: Vec<bool> = around.simplices().map(|n| tetrahedra.contains(n)).collect();
-    let corrections = face_corrections(&part, field, &faces, |n| is_wanted[n]);
+    let Surroundings { subset, part, faces } = around;
+    let (far, places) = far;
+    let estimate = |place: usize| match places.get(&(place as u32)) {
+        Some(&place) => estimate(&far.part, field, &far.faces, place as usize),
+        None => estimate(part, field, faces, place),
+    };
+    let is_wanted: Vec<bool> = subset.simplices().map(|n| tetrahedra.contains(n)).collect();
+    let corrections = face_corrections(part, field, faces, |n| is_wanted[n], estimate);
     let wanted = (0..is_wanted.len()).filter(|&tetrahedron| is_wanted[tetrahedron]);
     let completed = wanted.map(|tetrahedron| {
-        let mut coefficients = amid_faces(&part, field, tetrahedron);
+        let mut coefficients = amid_faces(part, field, tetrahedron);
         correct(&mut coefficients, &faces.of_tetrahedra()[tetrahedron], &corrections);
         coefficients
     });
     completed.collect()
 }
 
-/// Some tetrahedra, and all on which their coefficients depend: neighbours have a say in their
-/// faces, and listen to their neighbours, on the boundary to those of these as well.
-fn with_all_that_speak(mesh: &TetrahedronMesh, tetrahedra: &Subset) -> Subset {
-    let speaking = tetrahedra.with_neighbours(mesh);
-    speaking.with_neighbours(mesh).with_neighbours(mesh)
+/// Some tetrahedra of a mesh, and their faces.
+struct Surroundings<'a> {
+    subset: Subset,
+    /// These alone.
+    part: TetrahedronMesh<'a>,
+    /// Their faces.
+    faces: Faces,
+}
+
+impl<'a> Surroundings<'a> {
+    fn new(mesh: &'a TetrahedronMesh, subset: Subset) -> Self {
+        let part = mesh.part(&subset);
+        let faces = Faces::new(&part);
+        Self { subset, part, faces }
+    }
+
+    /// The surroundings of those that are `speaking` and listen farther than `around` them, and the
+    /// places of these there, by their places here. They are few: on the boundary.
+    fn of_outermost(
+        mesh: &'a TetrahedronMesh,
+        speaking: &Subset,
+        around: &Surroundings,
+    ) -> (Self, FxHashMap<u32, u32>) {
+        let Surroundings { subset, part, faces } = around;
+        let is_outermost = |(place, number): &(usize, usize)| {
+            speaking.contains(*number) && asks_further(part, faces, *place)
+        };
+        let outermost: Vec<_> = subset.simplices().enumerate().filter(is_outermost).collect();
+        let numbers = outermost.iter().map(|&(_, number)| number);
+        let far = Subset::of_numbers(mesh.tetrahedra().len(), numbers);
+        let far = Self::new(mesh, far.with_neighbours(mesh).with_neighbours(mesh));
+        let there = |number| far.subset.place(number).unwrap_or_default() as u32;
+        let places = outermost.iter().map(|&(place, number)| (place as u32, there(number)));
+        let places = places.collect();
+        (far, places)
+    }
 }
 
 /// The coefficients amid the faces of a tetrahedron that reproduce quadratics.

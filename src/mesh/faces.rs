@@ -1,7 +1,5 @@
 //! The faces of tetrahedra, each numbered once.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 
 use super::simplex_mesh::TetrahedronMesh;
@@ -9,14 +7,14 @@ use super::simplex_mesh::TetrahedronMesh;
 /// The faces of a mesh of tetrahedra, and which tetrahedra they belong to.
 ///
 /// A face is its three points, whatever their order: tetrahedra with the same three
-/// points share it. Forty bytes a tetrahedron are kept, and hardly more is needed to find them.
+/// points share it. They are numbered in the order of their points, so that the tetrahedra of some
+/// that follow each other stand close together if the points do. Forty bytes a tetrahedron are
+/// kept, and hardly more is needed to find them.
 #[derive(Clone, Debug)]
 pub struct Faces {
     of_tetrahedra: Vec<[u32; 4]>,
     /// Where the sides of each face begin, and the end of the last.
     offsets: Vec<u32>,
-    /// The first face of each point, of those of which it is the least; and the end of the last.
-    of_points: Vec<u32>,
     sides: Vec<Side>,
 }
 
@@ -59,12 +57,15 @@ impl Faces {
     /// The faces of `mesh`, in the order of their points.
     pub fn new(mesh: &TetrahedronMesh) -> Self {
         let (mut sides, ends) = by_least_point(mesh);
-        let mut blocks = Vec::with_capacity(ends.len());
+        let mut blocks = Vec::new();
         let mut rest = &mut sides[..];
         for (point, &end) in ends.iter().enumerate() {
             let begin = if point == 0 { 0 } else { ends[point - 1] };
             let (block, after) = rest.split_at_mut((end - begin) as usize);
-            blocks.push(block);
+            // of a part of a mesh many points have none
+            if !block.is_empty() {
+                blocks.push(block);
+            }
             rest = after;
         }
         blocks.into_par_iter().for_each_init(Vec::new, |keyed, block| {
@@ -79,33 +80,24 @@ impl Faces {
                 *side = *sorted;
             }
         });
-        Self::numbered(mesh, sides, ends)
+        Self::numbered(mesh, sides)
     }
 
-    /// Faces from sides in the order of their faces, those of each least point up to an end.
-    fn numbered(mesh: &TetrahedronMesh, sides: Vec<Side>, ends: Vec<u32>) -> Self {
+    /// Faces from sides in the order of their faces.
+    fn numbered(mesh: &TetrahedronMesh, sides: Vec<Side>) -> Self {
         let mut of_tetrahedra = vec![[0; 4]; mesh.tetrahedra().len()];
         let mut offsets = Vec::with_capacity(sides.len() / 2 + 1);
-        // where the sides of a point end is not asked again
-        let mut of_points = ends;
-        let mut begin = 0;
-        for of_point in &mut of_points {
-            let end = std::mem::replace(of_point, offsets.len() as u32);
-            let mut before = None;
-            for place in begin..end {
-                let side = sides[place as usize];
-                let face = side.face(mesh);
-                if before != Some(face) {
-                    offsets.push(place);
-                    before = Some(face);
-                }
-                of_tetrahedra[side.tetrahedron()][side.opposite()] = offsets.len() as u32 - 1;
+        let mut before = None;
+        for (place, side) in sides.iter().enumerate() {
+            let face = side.face(mesh);
+            if before != Some(face) {
+                offsets.push(place as u32);
+                before = Some(face);
             }
-            begin = end;
+            of_tetrahedra[side.tetrahedron()][side.opposite()] = offsets.len() as u32 - 1;
         }
-        of_points.push(offsets.len() as u32);
-        offsets.push(begin);
-        Self { of_tetrahedra, offsets, of_points, sides }
+        offsets.push(sides.len() as u32);
+        Self { of_tetrahedra, offsets, sides }
     }
 
     /// How many faces there are.
@@ -121,12 +113,6 @@ impl Faces {
     /// The sides of a face, ascending: two inside a mesh, one on its boundary.
     pub fn sides(&self, face: usize) -> &[Side] {
         &self.sides[self.offsets[face] as usize..self.offsets[face + 1] as usize]
-    }
-
-    /// The faces of which these points are the least. Their tetrahedra stand close together if
-    /// the points do.
-    pub fn of_least_points(&self, points: Range<usize>) -> Range<usize> {
-        self.of_points[points.start] as usize..self.of_points[points.end] as usize
     }
 
     /// What lies beyond the face opposite a corner of a tetrahedron of `mesh`: the one other
@@ -155,9 +141,7 @@ fn by_least_point(mesh: &TetrahedronMesh) -> (Vec<Side>, Vec<u32>) {
         let others = [1, 2, 3].map(|step| corners[(side.opposite() + step) % 4]);
         others[0].min(others[1]).min(others[2]) as usize
     };
-    // one more is to come
-    let mut ends = Vec::with_capacity(mesh.points().len() + 1);
-    ends.resize(mesh.points().len(), 0_u32);
+    let mut ends = vec![0_u32; mesh.points().len()];
     all().for_each(|side| ends[least(side)] += 1);
     let mut sum = 0;
     for end in &mut ends {
@@ -195,9 +179,8 @@ mod tests {
         assert_eq!(faces.beyond(&mesh, 0, 1), None);
         assert_eq!(sides.map(|side| side.point(&mesh)), [0, 4]);
         assert_eq!(sides.map(|side| side.face(&mesh)), [[1, 2, 3]; 2]);
-        // 012, 013, 023; 123, 124, 134; 234
-        let of_point = |point| faces.of_least_points(point..point + 1);
-        assert_eq!([0, 1, 2, 3].map(of_point), [0..3, 3..6, 6..7, 7..7]);
+        // 012, 013, 023, 123, 124, 134, 234
+        assert_eq!(faces.of_tetrahedra(), [[3, 2, 1, 0], [5, 3, 4, 6]]);
     }
 
     #[test]

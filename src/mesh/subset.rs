@@ -43,6 +43,13 @@ impl Subset {
         Self { words, before, count: count as usize, simplex_count: simplices }
     }
 
+    /// Those of so many simplices that have the given numbers.
+    pub fn of_numbers(simplices: usize, numbers: impl Iterator<Item = usize>) -> Self {
+        let mut words = vec![0; simplices.div_ceil(WORD)];
+        numbers.for_each(|number| words[number / WORD] |= 1 << (number % WORD));
+        Self::of_words(simplices, |number| words[number])
+    }
+
     /// None of so many simplices.
     pub fn none(simplices: usize) -> Self {
         Self::of_words(simplices, |_| 0)
@@ -125,6 +132,8 @@ mod tests {
                 let place = listed.iter().position(|&other| other == simplex);
                 prop_assert_eq!(subset.place(simplex), place);
             }
+            let again = Subset::of_numbers(bits.len(), listed.iter().copied());
+            prop_assert_eq!(again.simplices().collect::<Vec<_>>(), listed);
         }
     }
 

@@ -91,6 +91,20 @@ static EDGES: [[[usize; 4]; 4]; 4] = {
     all
 };
 
+/// The positions of the coefficients at vertices and on edges.
+const ON_EDGES: [usize; 16] = {
+    let (mut all, mut count, mut n) = ([0; 16], 0, 0);
+    while n < CUBIC.len() {
+        let [a, b, c, d] = CUBIC[n];
+        if a > 1 || b > 1 || c > 1 || d > 1 {
+            all[count] = n;
+            count += 1;
+        }
+        n += 1;
+    }
+    all
+};
+
 pub(super) const TO_QUADRATIC: [[usize; 4]; 10] = parents(3);
 const TO_LINEAR: [[usize; 4]; 4] = parents(2);
 
@@ -240,9 +254,8 @@ impl TetrahedronCubic {
 
     /// Certain bounds that are closer: the polynomial lies between them, but not all coefficients.
     pub fn value_bounds(&self) -> [f64; 2] {
-        let mut on_edges = self.coefficients;
-        Self::FACES.into_iter().for_each(|face| on_edges[face] = on_edges[0]);
-        let amid_faces = Self::FACES.map(|face| self.coefficients[face]);
+        let on_edges = ON_EDGES.map(|position| self.coefficients[position]);
+        let amid_faces = Self::FACES.map(|position| self.coefficients[position]);
         let [on_edges, amid_faces] = [bounds(&on_edges), bounds(&amid_faces)].map(Into::into);
         value_bounds(on_edges, amid_faces, Self::SHARE_OF_FACES)
     }

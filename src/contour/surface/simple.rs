@@ -145,13 +145,17 @@ fn judge(
     let mesh = interpolant.mesh();
     let corners = mesh.corners(number as usize);
     let cubic = interpolant.cubic(number as usize);
-    if !holds(cubic.value_bounds(), level, |range| rounding::of_range(range, level)) {
+    let bounds = cubic.bounds().into();
+    let may_hold = |range: [f64; 2]| holds(range, level, |range| rounding::of_range(range, level));
+    // closer bounds matter only where the level is not between vertices
+    let [a, b, c, d] = cubic.vertices().map(|value| value < level);
+    let is_between = (a | b | c | d) & !(a & b & c & d);
+    if !may_hold(bounds) || !is_between && !may_hold(cubic.value_bounds()) {
         return Judged::Inactive;
     }
     if is_sliver(&corners) {
         return Judged::Sliver;
     }
-    let bounds = cubic.bounds().into();
     let above_level = TetrahedronCubic::new(cubic.coefficients.map(|c| c - level));
     let is_clear =
         |values: &[f64], near: f64| values.iter().fold(true, |all, v| all & (v.abs() > near));

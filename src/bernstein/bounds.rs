@@ -18,6 +18,11 @@ pub(super) fn bounds(coefficients: &[f64]) -> (f64, f64) {
     (least, high.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
+/// The range of what is in two ranges; of equal ends the first.
+pub fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
+}
+
 /// The least and the greatest value of a polynomial, or beyond, closer than the coefficients say:
 /// from the range of those that lie on edges, and that of the others. The Bernstein polynomials of
 /// these together are nowhere more than `share`, so that they count for no more than that.

@@ -28,7 +28,7 @@ mod tetrahedron_patch;
 mod triangle;
 
 pub use barycentric::{Barycentric, Barycentric4, between, vertices};
-pub use bounds::value_bounds;
+pub use bounds::{joined, value_bounds};
 pub use roots::{MAX_ROOTS, Root, RootKind, Roots};
 pub use segment::SegmentCubic;
 pub use sign::Sign;

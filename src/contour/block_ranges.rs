@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::ranges::{EMPTY, joined, rounded_outwards};
+use super::ranges::{EMPTY, rounded_outwards};
+use crate::bernstein::joined;
 use crate::interruption::checkpoint;
 use crate::mesh::Subset;
 

@@ -12,7 +12,7 @@ use super::block_ranges::BlockRanges;
 use super::extreme::{Extreme, recursive_extreme};
 use super::extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 use super::rounding;
-use crate::bernstein::{TetrahedronCubic, TriangleCubic};
+use crate::bernstein::{TetrahedronCubic, TriangleCubic, joined};
 use crate::interpolant::{TetrahedronCubics, TriangleCubics};
 use crate::interruption::checkpoint;
 use crate::mesh::Subset;
@@ -260,11 +260,6 @@ impl CellRanges {
 fn blocks(ranges: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let joined = |a: [f32; 2], b: &[f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     ranges.par_chunks(BLOCK).map(|block| block.iter().fold(EMPTY, joined)).collect()
-}
-
-/// What holds two ranges; of equal numbers the first.
-pub(super) fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
 }
 
 /// Whether a range holds a level, give or take its tolerance.

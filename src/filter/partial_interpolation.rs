@@ -10,6 +10,7 @@ use super::error::FilterError;
 use super::interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles, joined};
 use super::options::{ContourOptions, InterpolantKind};
 use super::solution::{Domain, Solution};
+use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::contour::{BlockRanges, CellCubic, CellRanges, Levels, holds_any};
 use crate::field::Field;
 use crate::interpolant::{
@@ -110,14 +111,20 @@ where
             |range: [f64; 2]| range[0] < low || range[1] > high || holds_any(range, levels);
         let cells = ranges.cells_with(reach, is_wanted);
         let coefficients = Coefficients::in_some(mesh, field, &cells);
-        let (cells, range) = coefficients.ranges(mesh, field, &cells, ranges, at_vertices);
         let ghosts = ranges.excluded();
-        Interpolated { coefficients, ranges: cells, range, singular: 0, pde_fit: None, ghosts }
+        let cubic = coefficients.cubic(mesh, field);
+        let ranges = CellRanges::of_some(&cells, ranges, &cubic);
+        let range = ranges.attained_beyond(at_vertices, &cubic);
+        drop(cubic);
+        Interpolated { coefficients, ranges, range, singular: 0, pde_fit: None, ghosts }
     }
 }
 
 /// An interpolant that can be computed in some cells.
 trait InSome<const CORNERS: usize> {
+    /// What it is on a cell.
+    type Cubic: CellCubic;
+
     /// The bounds of a cubic by its cell's own data; nothing if these are not finite.
     fn reach(mesh: &SimplexMesh<CORNERS>, field: &Field, cell: usize) -> Option<[f64; 2]>;
 
@@ -127,19 +134,17 @@ trait InSome<const CORNERS: usize> {
     /// The interpolant in some cells.
     fn in_some(mesh: &SimplexMesh<CORNERS>, field: Field, cells: &Subset) -> Self;
 
-    /// The range of each of the cells in which it is known, and the least and the greatest value
-    /// that it attains, given those at the vertices.
-    fn ranges(
-        &self,
-        mesh: &SimplexMesh<CORNERS>,
-        field: Field,
-        cells: &Subset,
-        bounded: &BlockRanges,
-        at_vertices: [f64; 2],
-    ) -> (CellRanges, [f64; 2]);
+    /// The cubic of a cell in which it is known.
+    fn cubic<'a>(
+        &'a self,
+        mesh: &'a SimplexMesh<'a, CORNERS>,
+        field: Field<'a>,
+    ) -> impl Fn(usize) -> Self::Cubic + Sync;
 }
 
 impl InSome<3> for OnTriangles {
+    type Cubic = TriangleCubic;
+
     fn reach(mesh: &TriangleMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
         reach_on_triangle(mesh, field, cell)
     }
@@ -152,20 +157,19 @@ impl InSome<3> for OnTriangles {
         Self::Pci(Pci::on_some(mesh, field, cells).into_centres())
     }
 
-    fn ranges(
-        &self,
-        mesh: &TriangleMesh,
-        field: Field,
-        cells: &Subset,
-        bounded: &BlockRanges,
-        at_vertices: [f64; 2],
-    ) -> (CellRanges, [f64; 2]) {
+    fn cubic<'a>(
+        &'a self,
+        mesh: &'a TriangleMesh<'a>,
+        field: Field<'a>,
+    ) -> impl Fn(usize) -> TriangleCubic + Sync {
         let cubics = self.cubics(mesh, field);
-        of_some(cells, bounded, at_vertices, |cell| cubics.cubic(cell))
+        move |cell| cubics.cubic(cell)
     }
 }
 
 impl InSome<4> for OnTetrahedra {
+    type Cubic = TetrahedronCubic;
+
     fn reach(mesh: &TetrahedronMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
         reach_in_tetrahedron(mesh, field, cell)
     }
@@ -178,27 +182,12 @@ impl InSome<4> for OnTetrahedra {
         Self::Tricubic(Tricubic::in_some(mesh, field, cells).into_faces())
     }
 
-    fn ranges(
-        &self,
-        mesh: &TetrahedronMesh,
-        field: Field,
-        cells: &Subset,
-        bounded: &BlockRanges,
-        at_vertices: [f64; 2],
-    ) -> (CellRanges, [f64; 2]) {
+    fn cubic<'a>(
+        &'a self,
+        mesh: &'a TetrahedronMesh<'a>,
+        field: Field<'a>,
+    ) -> impl Fn(usize) -> TetrahedronCubic + Sync {
         let cubics = self.cubics(mesh, field);
-        of_some(cells, bounded, at_vertices, |cell| cubics.cubic(cell))
+        move |cell| cubics.cubic(cell)
     }
-}
-
-/// The ranges of some cells whose cubics are known, and what is attained.
-fn of_some<Cubic: CellCubic>(
-    cells: &Subset,
-    bounded: &BlockRanges,
-    at_vertices: [f64; 2],
-    cubic: impl Fn(usize) -> Cubic + Sync,
-) -> (CellRanges, [f64; 2]) {
-    let ranges = CellRanges::of_some(cells, bounded, &cubic);
-    let range = ranges.attained_beyond(at_vertices, cubic);
-    (ranges, range)
 }

@@ -55,7 +55,7 @@ const VALUE: f64 = 0.01;
 const ROUNDING: f64 = 1e-13;
 
 /// Faces that are treated at a time: what their tetrahedra say need not be kept for the whole mesh
-/// then. Most tetrahedra have all their faces in one block, none in more than two.
+/// then. Most tetrahedra have all their faces in one block; the others are asked again.
 const BLOCK: usize = 1 << 15;
 
 /// For each face of the tetrahedra that are wanted, what is to be added to the coefficient that

@@ -1,7 +1,7 @@
 //! What values and gradients say of the cubic on a tetrahedron: 16 of its 20
 //! coefficients, and a first value for the other four.
 
-use crate::bernstein::{SegmentCubic, TetrahedronCubic};
+use crate::bernstein::{SegmentCubic, TetrahedronCubic, joined};
 use crate::field::Field;
 use crate::mesh::{TetrahedronMesh, Vector, ascending_corners};
 
@@ -53,15 +53,8 @@ impl Known {
 }
 
 /// The lesser and the greater of two numbers.
-pub(super) fn range_of_two(a: f64, b: f64) -> [f64; 2] {
+fn range_of_two(a: f64, b: f64) -> [f64; 2] {
     if a < b { [a, b] } else { [b, a] }
-}
-
-/// The range of what is in two ranges.
-pub(super) fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    let low = if a[0] < b[0] { a[0] } else { b[0] };
-    let high = if a[1] > b[1] { a[1] } else { b[1] };
-    [low, high]
 }
 
 /// The cubic with the field's values and gradients at the vertices, and the given

@@ -9,9 +9,9 @@
 //!
 //! Source: ours.
 
-use super::hermite::{Known, beside, joined, range_of_two};
+use super::hermite::{Known, beside};
 use super::pci;
-use crate::bernstein::{TetrahedronCubic, TriangleCubic, value_bounds};
+use crate::bernstein::{TetrahedronCubic, TriangleCubic, joined, value_bounds};
 use crate::field::Field;
 use crate::mesh::{TetrahedronMesh, TriangleMesh, Vector, ascending_corners};
 
@@ -38,7 +38,7 @@ pub fn reach_in_tetrahedron(
         let [one, two, three] = edges[opposite];
         moved(centre, joined(joined(one, two), three))
     });
-    let amid_faces = joined(joined(first?, second?), joined(third?, fourth?));
+    let amid_faces = joined_four([first?, second?, third?, fourth?]);
     let on_edges = joined(joined(joined(ab, ac), joined(ad, bc)), joined(bd, cd));
     Some(value_bounds(on_edges, amid_faces, TetrahedronCubic::SHARE_OF_FACES))
 }
@@ -71,13 +71,7 @@ pub fn rough_reach_in_tetrahedron(
         }
         at_corner[from] += sum;
     }
-    let [low, high] = [
-        range_of_two(range_of_two(least[0], least[1])[0], range_of_two(least[2], least[3])[0])[0],
-        range_of_two(
-            range_of_two(greatest[0], greatest[1])[1],
-            range_of_two(greatest[2], greatest[3])[1],
-        )[1],
-    ];
+    let [low, high] = joined_four([0, 1, 2, 3].map(|corner| [least[corner], greatest[corner]]));
     // both ends of each edge were counted
     let all = (at_corner[0] + at_corner[1] + at_corner[2] + at_corner[3]) / 2.0;
     let vertices = values[0] + values[1] + values[2] + values[3];
@@ -88,13 +82,18 @@ pub fn rough_reach_in_tetrahedron(
         let centre = (all - at_corner[opposite]) / 4.0 - (vertices - values[opposite]) / 6.0;
         [centre, centre]
     });
-    let [lowest, highest] = joined(joined(amid[0], amid[1]), joined(amid[2], amid[3]));
+    let [lowest, highest] = joined_four(amid);
     // a face's spread is no more than the tetrahedron's
     let spread = high - low;
     let rounding = ROUNDING * low.abs().max(high.abs());
     let amid_faces = [lowest - spread - rounding, highest + spread + rounding];
     let [low, high] = value_bounds([low, high], amid_faces, TetrahedronCubic::SHARE_OF_FACES);
     Some([low - rounding, high + rounding])
+}
+
+/// The range of what is in four ranges.
+fn joined_four([a, b, c, d]: [[f64; 2]; 4]) -> [f64; 2] {
+    joined(joined(a, b), joined(c, d))
 }
 
 /// Sums of this order of size, in another order, differ by less than this part of the greatest.

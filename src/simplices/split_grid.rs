@@ -108,7 +108,11 @@ fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pie
     let count = grid.types.len();
     let (offsets, types) = (grid.cells.offsets(), &grid.types);
     let are_fours = offsets.par_iter().enumerate().all(|(n, &offset)| offset == 4 * n as i64);
-    if count == 0 || !are_fours || !types.par_iter().all(|&cell_type| cell_type == 10) {
+    if count == 0
+        || count != grid.cells.len()
+        || !are_fours
+        || !types.par_iter().all(|&cell_type| cell_type == 10)
+    {
         return None;
     }
     let (cells, _) = grid.cells.connectivity().as_chunks::<4>();

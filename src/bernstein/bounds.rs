@@ -25,7 +25,8 @@ pub fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// The least and the greatest value of a polynomial, or beyond, closer than the coefficients say:
 /// from the range of those that lie on edges, and that of the others. The Bernstein polynomials of
-/// these together are nowhere more than `share`, so that they count for no more than that.
+/// these together are nowhere more than `share`, so that they count for no more than that. Computed
+/// with rounding: a value may be beyond by a unit in the last place of the greatest coefficient.
 pub fn value_bounds(on_edges: [f64; 2], others: [f64; 2], share: f64) -> [f64; 2] {
     let [least, greatest] = on_edges;
     // a difference of finite numbers need not be finite, that of parts of them is

@@ -18,12 +18,13 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// The more extreme of two values.
+    /// The more extreme of two values; of equal ones, as of zeros of either sign, the first.
     pub fn better(self, a: f64, b: f64) -> f64 {
-        match self {
-            Extreme::Minimum => a.min(b),
-            Extreme::Maximum => a.max(b),
-        }
+        let is_better = match self {
+            Extreme::Minimum => b < a,
+            Extreme::Maximum => b > a,
+        };
+        if is_better { b } else { a }
     }
 
     /// The end of a range on this side.

@@ -14,8 +14,8 @@ use crate::mesh::SimplexMesh;
 #[derive(Debug)]
 pub struct Rounding {
     level: f64,
-    /// For each point of the active cells, the least spread of the interpolant on
-    /// one of them.
+    /// For each point of the active cells, the least spread of the bounds of the
+    /// interpolant on one of them.
     spreads: HashMap<u32, f64>,
 }
 
@@ -31,8 +31,9 @@ const OF_SPREAD: f64 = 64.0 * f64::EPSILON;
 const OF_GIVEN: f64 = 1e-6;
 
 impl Rounding {
-    /// The rounding at the points of the cells that are active at a level; `bounds` are the
-    /// least and the greatest coefficient of a cell.
+    /// The rounding at the points of the cells that are active at a level; `bounds` are those by
+    /// which a cell is active: by wider ones a point would be on the level for its neighbours,
+    /// and not for a cell that is not among them.
     pub fn new<const CORNERS: usize>(
         mesh: &SimplexMesh<CORNERS>,
         bounds: impl Fn(usize) -> [f64; 2],

@@ -68,7 +68,13 @@ impl Interpolation {
                 let range =
                     joined([flat.as_ref().map(|i| i.range), solid.as_ref().map(|i| i.range)]);
                 let levels = range.map_or(Ok(Vec::new()), |range| levels.resolve(range))?;
-                if levels.is_empty() { (flat, solid) } else { at(&levels) }
+                if levels.is_empty() {
+                    (flat, solid)
+                } else {
+                    // not both at a time
+                    drop((flat, solid));
+                    at(&levels)
+                }
             }
         };
         Self::of_domains(solution, triangles, tetrahedra, diagonal)

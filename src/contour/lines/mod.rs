@@ -39,7 +39,7 @@ const CHUNK: usize = 64;
 /// Contour lines of `interpolant` at the given levels (finite, ascending).
 ///
 /// Every component of every contour is found: cells are passed over only where
-/// the Bernstein coefficients exclude a contour, and pieces are drawn only with
+/// bounds by the Bernstein coefficients exclude a contour, and pieces are drawn only with
 /// the A-patch certificate; [`Counts::unresolved`] tells where that failed. All
 /// points lie on their level to rounding. The result does not depend on the
 /// number of threads.
@@ -91,8 +91,7 @@ fn lines_between(
     for (place, &level) in levels.iter().enumerate() {
         let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
         let cells = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
-        let of_coefficients = |cell: usize| interpolant.cubic(cell).bounds().into();
-        let rounding = Rounding::new(interpolant.mesh(), of_coefficients, level, &cells);
+        let rounding = Rounding::new(interpolant.mesh(), bounds, level, &cells);
         let walls = walls(&rounding, &cells);
         let tracing = Tracing { level, rounding: &rounding, walls: &walls, method, resolution };
         lines.counts.active += cells.len();

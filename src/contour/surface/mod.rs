@@ -59,8 +59,8 @@ const CHUNK: usize = 64;
 /// of the boundary that are on the level as a whole are drawn besides. Faces inside at which the
 /// level is touched and not crossed are no border, and not drawn.
 ///
-/// Every component is found: cells are passed over only where the Bernstein coefficients exclude
-/// a surface, and pieces are drawn only with the A-patch certificate;
+/// Every component is found: cells are passed over only where bounds by the Bernstein coefficients
+/// exclude a surface, and pieces are drawn only with the A-patch certificate;
 /// [`SurfaceCounts::unresolved`] tells where that failed. All points lie on their level to
 /// rounding. The result does not depend on the number of threads.
 ///
@@ -128,7 +128,7 @@ fn cells_at(
     numbers: &[u32],
     around: &[u32],
 ) -> Vec<Cell> {
-    let bounds = |cell: usize| interpolant.cubic(cell).bounds().into();
+    let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
     let rounding = Rounding::new(interpolant.mesh(), bounds, level, around);
     let walls = Walls::new(interpolant, ranges, &rounding, around);
     let cell = |&number: &u32| {

@@ -150,7 +150,8 @@ fn judge(
     // closer bounds matter only where the level is not between vertices
     let [a, b, c, d] = cubic.vertices().map(|value| value < level);
     let is_between = (a | b | c | d) & !(a & b & c & d);
-    if !may_hold(bounds) || !is_between && !may_hold(cubic.value_bounds()) {
+    let is_active = may_hold(bounds) && (is_between || may_hold(cubic.value_bounds()));
+    if !is_active {
         return Judged::Inactive;
     }
     if is_sliver(&corners) {

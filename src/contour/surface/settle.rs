@@ -1,6 +1,5 @@
 //! From active cells to pieces with one simple patch each.
 
-use rayon::iter::Either;
 use rayon::prelude::*;
 
 use super::cell::Cell;
@@ -61,32 +60,33 @@ pub fn settle(
     points: u32,
     mut wake: impl FnMut(&Marks, &mut Vec<Cell>),
 ) -> Settled {
-    let whole = (0..cells.len() as u32).into_par_iter();
-    let mut pieces: Vec<Known> = whole
-        .filter_map(|place| known(cells, Piece::whole(&cells[place as usize], place)))
-        .collect();
+    // cell by cell, so that what no division touches stays where it is
+    let numbers = (0..cells.len()).into_par_iter();
+    let mut pieces: Vec<Vec<Known>> = numbers.map(|number| whole(cells, number)).collect();
     let mut next_vertex = points;
     loop {
         let marks = Marks::new(marked(cells, &pieces), next_vertex);
         if marks.len() == 0 {
-            return settled(cells.len(), pieces);
+            return settled(pieces);
         }
         next_vertex += marks.len() as u32;
-        let before = cells.len();
         wake(&marks, cells);
-        let woken = (before..cells.len()).map(|n| Piece::whole(&cells[n], n as u32));
-        pieces.extend(woken.filter_map(|piece| known(cells, piece)));
-        pieces = pieces
-            .into_par_iter()
-            .inspect(|_| checkpoint())
-            .flat_map_iter(|known| divided(cells, &marks, known))
-            .collect();
+        pieces.extend((pieces.len()..cells.len()).map(|number| whole(cells, number)));
+        pieces.par_iter_mut().zip(&*cells).for_each(|(pieces, cell)| {
+            checkpoint();
+            divide(cell, &marks, pieces);
+        });
     }
 }
 
+/// A cell as one piece; none if no surface can be there.
+fn whole(cells: &[Cell], number: usize) -> Vec<Known> {
+    let cell = &cells[number];
+    known(cell, Piece::whole(cell, number as u32)).into_iter().collect()
+}
+
 /// What is known of a piece; nothing if no surface can be there.
-fn known(cells: &[Cell], piece: Piece) -> Option<Known> {
-    let cell = &cells[piece.cell as usize];
+fn known(cell: &Cell, piece: Piece) -> Option<Known> {
     let certificate = piece.certificate(cell)?;
     let undecided = certificate == PatchCertificate::None;
     let is_divisible = undecided && piece.depth < deepest(&piece, cell);
@@ -104,41 +104,50 @@ fn deepest(piece: &Piece, cell: &Cell) -> u16 {
     }
 }
 
-/// The edges that undecided pieces want to be divided, unless these are at a limit.
-fn marked(cells: &[Cell], pieces: &[Known]) -> Vec<([u32; 2], f64)> {
-    // pieces of a cell stand together
-    let groups: Vec<&[Known]> = pieces.chunk_by(|a, b| a.piece.cell == b.piece.cell).collect();
-    let most = if pieces.len() < MANY { MAX_PIECES } else { MAX_PIECES_OF_MANY };
-    let marks = groups.into_par_iter().filter(|group| group.len() < most);
-    marks
-        .flat_map_iter(|group| group.iter().filter(|known| known.is_divisible))
-        .map(|known| mark(&known.piece, &cells[known.piece.cell as usize]))
+/// The edges that undecided pieces want to be divided, unless these are at a limit. `pieces` are
+/// those of each cell.
+fn marked(cells: &[Cell], pieces: &[Vec<Known>]) -> Vec<([u32; 2], f64)> {
+    let all: usize = pieces.iter().map(Vec::len).sum();
+    let most = if all < MANY { MAX_PIECES } else { MAX_PIECES_OF_MANY };
+    let of_cells = pieces.par_iter().zip(cells).filter(|(pieces, _)| pieces.len() < most);
+    of_cells
+        .flat_map_iter(|(pieces, cell)| {
+            let divisible = pieces.iter().filter(|known| known.is_divisible);
+            divisible.map(|known| mark(&known.piece, cell))
+        })
         .collect()
 }
 
-/// The parts of a piece, or the piece itself if no edge of it is marked.
-fn divided(cells: &[Cell], marks: &Marks, known: Known) -> impl Iterator<Item = Known> {
-    if !marks.touch(&known.piece) {
-        return Either::Left(std::iter::once(known));
+/// Divides those pieces of a cell that have a marked edge.
+fn divide(cell: &Cell, marks: &Marks, pieces: &mut Vec<Known>) {
+    if !pieces.iter().any(|known| marks.touch(&known.piece)) {
+        return;
     }
     let mut parts = Vec::new();
-    let cell = &cells[known.piece.cell as usize];
-    marks.divide(known.piece, cell, &mut parts);
-    Either::Right(parts.into_iter().filter_map(|part| self::known(cells, part)))
-}
-
-fn settled(cells: usize, pieces: Vec<Known>) -> Settled {
-    let mut divided = vec![false; cells];
-    let mut settled = Settled::default();
-    for Known { piece, certificate, .. } in pieces {
-        let is_certified = certificate != PatchCertificate::None;
-        // else only neighbours had to be
-        divided[piece.cell as usize] |= piece.depth > 0 && (piece.is_cut() || !is_certified);
-        settled.unresolved += usize::from(!is_certified);
-        if piece.is_cut() {
-            settled.pieces.push(Piece { is_certified, ..piece });
+    for before in std::mem::take(pieces) {
+        if marks.touch(&before.piece) {
+            marks.divide(before.piece, cell, &mut parts);
+            pieces.extend(parts.drain(..).filter_map(|part| known(cell, part)));
+        } else {
+            pieces.push(before);
         }
     }
-    settled.divided = divided.into_iter().filter(|divided| *divided).count();
+}
+
+fn settled(pieces: Vec<Vec<Known>>) -> Settled {
+    let mut settled = Settled::default();
+    for of_cell in pieces {
+        let mut is_divided = false;
+        for Known { piece, certificate, .. } in of_cell {
+            let is_certified = certificate != PatchCertificate::None;
+            // else only neighbours had to be
+            is_divided |= piece.depth > 0 && (piece.is_cut() || !is_certified);
+            settled.unresolved += usize::from(!is_certified);
+            if piece.is_cut() {
+                settled.pieces.push(Piece { is_certified, ..piece });
+            }
+        }
+        settled.divided += usize::from(is_divided);
+    }
     settled
 }

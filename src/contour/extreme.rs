@@ -110,6 +110,14 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
+    fn of_zeros_the_first_is_better() {
+        for which in [Extreme::Minimum, Extreme::Maximum] {
+            assert!(which.better(-0.0, 0.0).is_sign_negative());
+            assert!(which.better(0.0, -0.0).is_sign_positive());
+        }
+    }
+
+    #[test]
     fn an_extreme_at_a_vertex_ends_the_search() {
         let plane = TriangleCubic::linear([1.0, 2.0, 3.0]);
         let found = recursive_extreme(&plane, Extreme::Maximum);

@@ -3,8 +3,9 @@
 //! The thesis searches for the extremes of each cubic, which may miss some; its
 //! Bernstein coefficients bound the cubic with certainty, and cost less
 //! ([`TetrahedronCubic::value_bounds`]). The bounds may be a little wide: then
-//! stage two looks at a cell in vain. Where a *tight* range is wanted, to place levels, the thesis' recursive
-//! search is used ([`recursive_extreme`]), on the few cells that could matter.
+//! stage two looks at a cell in vain. Where a *tight* range is wanted, to place
+//! levels, the thesis' recursive search is used ([`recursive_extreme`]), on the
+//! few cells that could matter.
 
 use rayon::prelude::*;
 

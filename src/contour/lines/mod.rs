@@ -39,10 +39,10 @@ const CHUNK: usize = 64;
 /// Contour lines of `interpolant` at the given levels (finite, ascending).
 ///
 /// Every component of every contour is found: cells are passed over only where
-/// bounds by the Bernstein coefficients exclude a contour, and pieces are drawn only with
-/// the A-patch certificate; [`Counts::unresolved`] tells where that failed. All
-/// points lie on their level to rounding. The result does not depend on the
-/// number of threads.
+/// bounds by the Bernstein coefficients exclude a contour, and pieces are drawn
+/// only with the A-patch certificate; [`Counts::unresolved`] tells where that
+/// failed. All points lie on their level to rounding. The result does not depend
+/// on the number of threads.
 ///
 /// `ranges` must be those of `interpolant`; they serve any number of calls.
 ///

@@ -115,8 +115,12 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
 
 /// The numbers of the cells that may hold a level.
 fn active_cells(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<u32> {
-    let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
-    ranges.cells_at(level, |range| rounding::of_range(range, level), bounds)
+    ranges.cells_at(level, |range| rounding::of_range(range, level), bounds(interpolant))
+}
+
+/// The bounds of the cubic of a cell, by its number: those by which it is active.
+fn bounds(interpolant: &dyn TetrahedronCubics) -> impl Fn(usize) -> [f64; 2] + Sync {
+    |cell| interpolant.cubic(cell).value_bounds()
 }
 
 /// Cells at a level, by their numbers; `around` are all active ones that share points with them,
@@ -128,8 +132,7 @@ fn cells_at(
     numbers: &[u32],
     around: &[u32],
 ) -> Vec<Cell> {
-    let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
-    let rounding = Rounding::new(interpolant.mesh(), bounds, level, around);
+    let rounding = Rounding::new(interpolant.mesh(), bounds(interpolant), level, around);
     let walls = Walls::new(interpolant, ranges, &rounding, around);
     let cell = |&number: &u32| {
         checkpoint();

@@ -14,7 +14,7 @@ use vtu2contour::contour::CellRanges;
 use vtu2contour::contour::surface::{
     ContourSurface, Fineness, contour_surface, points_per_side_within,
 };
-use vtu2contour::field::{Field, RecoveryDegree, recover_gradients};
+use vtu2contour::field::Field;
 use vtu2contour::interpolant::{TetrahedronCubics, Tricubic};
 use vtu2contour::mesh::{TetrahedronMesh, Vector};
 
@@ -225,44 +225,6 @@ fn levels_through_nodes() {
     // once the boundary around a corner is on the level, and gradients at random point in and
     // out of it
     assert_eq!(contradictory, 3);
-}
-
-/// x (1 - x) y (1 - y) z (1 - z) (z - 0.45), zero on the whole boundary and in a plane, and
-/// its gradient.
-fn with_walls(p: &Vector) -> (f64, Vector) {
-    let bump = |x: f64| (x * (1.0 - x), 1.0 - 2.0 * x);
-    let [(x, dx), (y, dy), (z, dz)] = [bump(p.x), bump(p.y), bump(p.z)];
-    let (plane, slope) = (p.z - 0.45, dz * (p.z - 0.45) + z);
-    (x * y * z * plane, Vector::new(dx * y * z * plane, x * dy * z * plane, x * y * slope))
-}
-
-/// A level that is the value of a boundary condition: the walls are drawn whole, each face
-/// once, and the plane inside ends in them; with exact gradients, and with recovered ones,
-/// whose cubics weave about the level on the boundary.
-#[test]
-fn walls_on_the_level_are_whole() {
-    let mesh = shuffled(&mut Random(6), &kuhn_grid(7));
-    let (values, exact): (Vec<f64>, Vec<Vector>) = mesh.points().iter().map(with_walls).unzip();
-    let recovered = recover_gradients(&mesh, &values, RecoveryDegree::Three);
-    let cases = [(exact, "exact", 6, 0.02), (recovered, "recovered", 60, 0.1)];
-    for (gradients, name, divided, error) in cases {
-        let f = Tricubic::new(&mesh, Field { values: &values, gradients: &gradients });
-        let ranges = CellRanges::of_tetrahedra(&f);
-        let surface = contour_surface(&f, &ranges, &[0.0], Fineness::PointsPerSide(2));
-        check_even(&surface, name);
-        let is_in_wall = |triangle: &&[u32; 3]| {
-            let corners = triangle.map(|n| surface.points[n as usize].position);
-            let in_side = |n: usize, side: f64| corners.iter().all(|p| p[n] == side);
-            (0..3).any(|n| in_side(n, 0.0) || in_side(n, 1.0))
-        };
-        let in_walls = surface.triangles.iter().filter(is_in_wall).count();
-        println!("{name}: {:?}, area {}", surface.counts, area(&surface));
-        // the rest is where the plane meets two walls at once
-        assert!(surface.counts.divided <= divided, "{name}: {:?}", surface.counts);
-        assert!(surface.counts.unresolved < 40 * divided, "{name}: {:?}", surface.counts);
-        assert_eq!(in_walls, 6 * 2 * 7 * 7, "{name}");
-        assert!((area(&surface) - 7.0).abs() < error, "{name}");
-    }
 }
 
 /// Where a level passes through points of the mesh the surface is refined as elsewhere: a

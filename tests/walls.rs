@@ -139,3 +139,27 @@ fn the_samples_walls_are_whole() {
         assert_eq!(lines.lines.len(), expected, "{name} at {level}");
     }
 }
+
+/// A boundary value that is off the level, as one of single precision or of a solver, is the level
+/// on all of the wall or nowhere, although cells at the corners have less spread, and the value is
+/// not near the level in them.
+#[test]
+fn a_wall_off_the_level_is_drawn_whole_or_not_at_all() {
+    let mesh = grid(8);
+    let bump = |x: f64| 4.0 * x * (1.0 - x);
+    let slope = |x: f64| 4.0 * (1.0 - 2.0 * x);
+    for off in [0.0, 1e-17, 1e-12, 3e-8, 1e-7, 1.5e-7, 2e-7, 3e-7, 4e-7, 6e-7, 1e-6, 1e-5] {
+        let (values, gradients) = nodal(
+            &mesh,
+            |p| bump(p.x) * bump(p.y) + off,
+            |p| Vector::new(slope(p.x) * bump(p.y), bump(p.x) * slope(p.y), 0.0),
+        );
+        let pci = Pci::new(&mesh, Field { values: &values, gradients: &gradients });
+        let lines = at_level(&pci, 0.0);
+        let lengths: Vec<f64> = (0..lines.lines.len()).map(|line| length(&lines, line)).collect();
+        println!("{off}: {lengths:?} {:?}", lines.counts);
+        let is_drawn = !lengths.is_empty();
+        assert!(!is_drawn || (lengths.len() == 1 && (lengths[0] - 4.0).abs() < 1e-12), "{off}");
+        assert!((is_drawn || off > 1e-7) && (!is_drawn || off < 1e-6), "{off}");
+    }
+}

@@ -108,6 +108,12 @@ impl BlockRanges {
         (low <= high).then_some([low, high])
     }
 
+    /// What holds the ranges of all cells that are not left out, if there are any.
+    pub fn of_all(&self) -> Option<[f64; 2]> {
+        let ranges = self.blocks.iter().map(|block| block.range).filter(|range| *range != EMPTY);
+        ranges.map(|range| range.map(f64::from)).reduce(joined)
+    }
+
     /// How many cells have a value or a gradient that is not finite.
     pub fn unusable(&self) -> usize {
         self.summary.unusable
@@ -179,6 +185,7 @@ mod tests {
         let vertices = [[0.0, 1.0], [0.0, 0.1], [0.2, 0.3], [0.1, 0.1]];
         let ranges = BlockRanges::new(4, bounds, |cell| vertices[cell], |_| false);
         assert_eq!(ranges.at_vertices(), Some([0.0, 1.0]));
+        assert_eq!(ranges.of_all(), Some([-0.5, 1.5]));
         let beyond = ranges.cells_with(bounds, |[low, high]| low < 0.0 || high > 1.0);
         assert_eq!(numbers(&beyond), [1, 2]);
     }
@@ -192,7 +199,7 @@ mod tests {
         assert_eq!([0, 1, 2, 3].map(|cell| ranges.leaves_out(cell)), [true, true, false, true]);
         assert_eq!(numbers(&ranges.cells_with(bounds, |_| true)), [2]);
         let none = BlockRanges::new(2, |_| None, |_| [0.0], |_| false);
-        assert_eq!(none.at_vertices(), None);
+        assert_eq!((none.at_vertices(), none.of_all()), (None, None));
     }
 
     proptest! {

@@ -270,12 +270,13 @@ pub fn holds([low, high]: [f64; 2], level: f64, tolerance: impl Fn([f64; 2]) -> 
     !outside || (low - level).max(level - high) <= tolerance([low, high])
 }
 
-/// Whether a range holds any of the levels, which ascend, to rounding.
-pub fn holds_any(range: [f64; 2], levels: &[f64]) -> bool {
+/// Whether a range holds any of the levels, which ascend, to rounding: that of the range of `all`
+/// cells, so that one is among them which is near a level as a part of a wall.
+pub fn holds_any(range: [f64; 2], levels: &[f64], all: [f64; 2]) -> bool {
     // farther ones are farther outside by more than their own rounding grows
     let next = levels.partition_point(|&level| level < range[0]);
     let nearest = &levels[next.saturating_sub(1)..levels.len().min(next + 1)];
-    nearest.iter().any(|&level| holds(range, level, |range| rounding::of_range(range, level)))
+    nearest.iter().any(|&level| holds(range, level, |_| rounding::of_range(all, level)))
 }
 
 /// Whether all coefficients are finite.
@@ -366,9 +367,12 @@ mod tests {
             ([-3.0, -1.1], false),
             ([-3.0, -1.000_001], true),
         ] {
-            assert_eq!(holds_any(range, &levels), expected, "{range:?}");
+            assert_eq!(holds_any(range, &levels, [-3.0, 7.0]), expected, "{range:?}");
         }
-        assert!(!holds_any([0.0, 1.0], &[]));
+        assert!(!holds_any([0.0, 1.0], &[], [0.0, 1.0]));
+        // a cell of little spread at a wall
+        assert!(!holds_any([1e-6, 2e-6], &[0.0], [0.0, 0.5]));
+        assert!(holds_any([1e-6, 2e-6], &[0.0], [0.0, 1.0]));
     }
 
     proptest! {
@@ -377,11 +381,12 @@ mod tests {
             mut levels in prop::collection::vec(-9.0..9.0_f64, 0..5),
             low in -10.0..10.0_f64,
             width in 0.0..3.0_f64,
+            wider in 0.0..1e6_f64,
         ) {
             levels.sort_by(f64::total_cmp);
-            let range = [low, low + width];
-            let holds_one = |&level: &f64| holds(range, level, |r| rounding::of_range(r, level));
-            prop_assert_eq!(holds_any(range, &levels), levels.iter().any(holds_one));
+            let (range, all) = ([low, low + width], [low - wider, low + width]);
+            let holds_one = |&level: &f64| holds(range, level, |_| rounding::of_range(all, level));
+            prop_assert_eq!(holds_any(range, &levels, all), levels.iter().any(holds_one));
         }
 
         #[test]

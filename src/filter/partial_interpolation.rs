@@ -87,6 +87,8 @@ struct Bounded<'a, Coefficients, const CORNERS: usize> {
     field: Field<'a>,
     ranges: BlockRanges,
     at_vertices: [f64; 2],
+    /// What holds the ranges of all its cells.
+    of_all: [f64; 2],
     coefficients: PhantomData<Coefficients>,
 }
 
@@ -103,18 +105,18 @@ where
             |cell| mesh.simplices()[cell].map(|point| field.values[point as usize]),
             |cell| domain.is_ghost(cell),
         );
-        let at_vertices = ranges.at_vertices()?;
-        Some(Self { mesh, field, ranges, at_vertices, coefficients: PhantomData })
+        let (at_vertices, of_all) = (ranges.at_vertices()?, ranges.of_all()?);
+        Some(Self { mesh, field, ranges, at_vertices, of_all, coefficients: PhantomData })
     }
 
     /// The cubics in the cells that may hold one of the levels, which ascend, or a value that is
     /// beyond those at the vertices.
     fn at(&self, levels: &[f64]) -> Interpolated<Coefficients> {
-        let &Self { mesh, field, ref ranges, at_vertices, .. } = self;
+        let &Self { mesh, field, ref ranges, at_vertices, of_all, .. } = self;
         let [low, high] = at_vertices;
         let reach = |cell| Coefficients::reach(mesh, &field, cell);
         let is_wanted =
-            |range: [f64; 2]| range[0] < low || range[1] > high || holds_any(range, levels);
+            |range: [f64; 2]| range[0] < low || range[1] > high || holds_any(range, levels, of_all);
         let cells = ranges.cells_with(reach, is_wanted);
         let coefficients = Coefficients::in_some(mesh, field, &cells);
         let ghosts = ranges.excluded();

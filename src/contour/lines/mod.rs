@@ -25,7 +25,7 @@ pub use method::Method;
 use rayon::prelude::*;
 
 use crate::contour::CellRanges;
-use crate::contour::rounding::{self, Rounding};
+use crate::contour::rounding::{LevelBand, Rounding};
 use crate::interpolant::TriangleCubics;
 use crate::interruption::checkpoint;
 use line_builder::add_level;
@@ -90,9 +90,19 @@ fn lines_between(
     let resolution = resolution.no_finer_than(interpolant.mesh());
     for (place, &level) in levels.iter().enumerate() {
         let bounds = |cell: usize| interpolant.cubic(cell).value_bounds();
-        let cells = ranges.cells_at(level, |range| rounding::of_range(range, level), bounds);
-        let rounding = Rounding::new(interpolant.mesh(), bounds, level, &cells);
-        let walls = walls(&rounding, &cells);
+        let in_band = |band: LevelBand| {
+            let cells = ranges.cells_at(level, |range| band.of_range(range), bounds);
+            let rounding = Rounding::new(interpolant.mesh(), bounds, band, &cells);
+            let walls = walls(&rounding, &cells);
+            (cells, rounding, walls)
+        };
+        let mut found = in_band(LevelBand::new(level));
+        let of_walls = found.2.distance();
+        if of_walls > 0.0 {
+            // a cell of little spread may be at the same wall, and by itself not near the level
+            found = in_band(LevelBand { level, of_walls });
+        }
+        let (cells, rounding, walls) = found;
         let tracing = Tracing { level, rounding: &rounding, walls: &walls, method, resolution };
         lines.counts.active += cells.len();
         let mut traces = trace_cells(interpolant, &tracing, &cells);

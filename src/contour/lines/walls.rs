@@ -23,6 +23,8 @@ pub struct Walls {
     edges: Vec<[u32; 2]>,
     /// Their points, sorted.
     points: Vec<u32>,
+    /// How far from the level the value at one of their points is at most.
+    distance: f64,
 }
 
 /// How far the inner coefficients of a wall may be from the level, as a part of the
@@ -31,10 +33,15 @@ pub struct Walls {
 /// points on the level, such as sin x between two of its zeros, has 0.5 and more.
 const OF_WALL: f64 = 0.25;
 
-/// An edge with both ends on the level, seen from one of its cells.
+/// An edge that may be on a wall, by the values at its ends, seen from one of its cells.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     edge: [u32; 2],
+    length: f64,
+    /// How far from the level the value at an end is at most.
+    distance: f64,
+    /// Whether its ends are on the level without regard to the rest of a wall.
+    is_on_level: bool,
     /// Whether its inner coefficients are near enough to the level.
     is_near: bool,
     /// Whether the contour runs beside it, inside the cell, from end to end.
@@ -48,6 +55,10 @@ impl Walls {
     /// them are what a solution has that is symmetric. A wall that the contour
     /// follows inside the cells all along, as the circle around a hole, is left
     /// to it.
+    ///
+    /// A wall has one value, and is taken as a whole: it is on the level if the greater part of its
+    /// length is by itself. A first call, with a band without width, finds edges that are; a second,
+    /// with a band as wide as their [`distance`](Self::distance) and the cells in it, the whole.
     pub fn new(
         interpolant: &dyn TriangleCubics,
         ranges: &CellRanges,
@@ -71,19 +82,34 @@ impl Walls {
     /// Keeps the edges of chains that are walls.
     fn of_chains(candidates: &[Candidate]) -> Self {
         let chain = components(candidates.len(), |n| candidates[n].edge);
-        let mut lengths = vec![0; candidates.len()];
+        let mut counts = vec![0; candidates.len()];
+        let (mut lengths, mut on_level) =
+            (vec![0.0; candidates.len()], vec![0.0; candidates.len()]);
         let mut followed = vec![true; candidates.len()];
         for (candidate, &chain) in candidates.iter().zip(&chain) {
-            lengths[chain] += 1;
+            counts[chain] += 1;
+            lengths[chain] += candidate.length;
+            on_level[chain] += if candidate.is_on_level { candidate.length } else { 0.0 };
             followed[chain] &= candidate.is_followed;
         }
-        let is_wall = |&(_, &chain): &(&Candidate, &usize)| lengths[chain] > 1 && !followed[chain];
-        let edges: Vec<[u32; 2]> =
-            candidates.iter().zip(&chain).filter(is_wall).map(|(c, _)| c.edge).collect();
+        let is_wall = |chain: usize| {
+            let is_on_level = 2.0 * on_level[chain] >= lengths[chain];
+            is_on_level && counts[chain] > 1 && !followed[chain]
+        };
+        let of_walls = candidates.iter().zip(chain).filter(|(_, chain)| is_wall(*chain));
+        let found: Vec<&Candidate> = of_walls.map(|(candidate, _)| candidate).collect();
+        let distance = found.iter().map(|edge| edge.distance).fold(0.0, f64::max);
+        let edges: Vec<[u32; 2]> = found.iter().map(|found| found.edge).collect();
         let mut points: Vec<u32> = edges.iter().flatten().copied().collect();
         points.sort_unstable();
         points.dedup();
-        Self { edges, points }
+        Self { edges, points, distance }
+    }
+
+    /// How far from the level the value at a point of a wall is at most: cells that are so near
+    /// to the level may be at a wall as well.
+    pub fn distance(&self) -> f64 {
+        self.distance
     }
 
     /// Whether the edge between two points is a wall.
@@ -97,7 +123,7 @@ impl Walls {
     }
 }
 
-/// The edges of a cell with both ends on the level.
+/// The edges of a cell that may be on a wall.
 fn candidates(
     interpolant: &dyn TriangleCubics,
     rounding: &Rounding,
@@ -106,21 +132,27 @@ fn candidates(
     let points = interpolant.mesh().triangles()[cell];
     let cubic = interpolant.cubic(cell);
     let values = cubic.vertices();
+    let may_be_on_wall = [0, 1, 2].map(|n| rounding.may_be_on_wall(points[n], values[n]));
     let on_level = [0, 1, 2].map(|n| rounding.is_on_level(points[n], values[n]));
-    (0..3).filter(move |&edge| on_level[(edge + 1) % 3] && on_level[(edge + 2) % 3]).map(
-        move |edge| {
-            let (a, b) = (points[(edge + 1) % 3], points[(edge + 2) % 3]);
-            let (low, high) = cubic.bounds();
-            let [_, first, second, _] =
-                cubic.edge(edge).coefficients.map(|value| value - rounding.level());
-            let side = side(&cubic, edge, rounding.level());
-            Candidate {
-                edge: [a.min(b), a.max(b)],
-                is_near: first.abs().max(second.abs()) <= OF_WALL * (high - low),
-                is_followed: first * side < 0.0 && second * side < 0.0,
-            }
-        },
-    )
+    let corners = interpolant.mesh().corners(cell);
+    let ends = |edge: usize| [(edge + 1) % 3, (edge + 2) % 3];
+    (0..3).filter(move |&edge| ends(edge).iter().all(|&end| may_be_on_wall[end])).map(move |edge| {
+        let [from, to] = ends(edge);
+        let (a, b) = (points[from], points[to]);
+        let (low, high) = cubic.bounds();
+        let [_, first, second, _] =
+            cubic.edge(edge).coefficients.map(|value| value - rounding.level());
+        let side = side(&cubic, edge, rounding.level());
+        let distance = |end: usize| (values[end] - rounding.level()).abs();
+        Candidate {
+            edge: [a.min(b), a.max(b)],
+            length: (corners[to] - corners[from]).norm(),
+            distance: distance(from).max(distance(to)),
+            is_on_level: on_level[from] && on_level[to],
+            is_near: first.abs().max(second.abs()) <= OF_WALL * (high - low),
+            is_followed: first * side < 0.0 && second * side < 0.0,
+        }
+    })
 }
 
 /// On which side of the level a cell is, beside an edge that is taken as zero:
@@ -157,7 +189,8 @@ mod tests {
     use super::*;
 
     fn candidate(edge: [u32; 2], is_followed: bool) -> Candidate {
-        Candidate { edge, is_near: true, is_followed }
+        let (length, distance) = (1.0, 0.0);
+        Candidate { edge, length, distance, is_on_level: true, is_near: true, is_followed }
     }
 
     #[test]
@@ -167,6 +200,17 @@ mod tests {
         assert_eq!(walls.edges, [[5, 7], [6, 7]]);
         assert!(walls.has_edge(7, 5) && !walls.has_edge(0, 1));
         assert!(walls.has_point(6) && !walls.has_point(2));
+    }
+
+    #[test]
+    fn a_wall_is_on_the_level_if_the_greater_part_of_its_length_is() {
+        let on_level = candidate([0, 1], false);
+        let off = Candidate { is_on_level: false, distance: 0.5, ..candidate([1, 2], false) };
+        for (length, expected) in [(0.5, &[[0, 1], [1, 2]][..]), (2.0, &[])] {
+            let walls = Walls::of_chains(&[on_level, Candidate { length, ..off }]);
+            assert_eq!(walls.edges, expected);
+            assert_eq!(walls.distance(), if expected.is_empty() { 0.0 } else { 0.5 });
+        }
     }
 
     #[test]

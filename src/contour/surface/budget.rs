@@ -6,7 +6,7 @@
 use super::flat_faces::flat_faces;
 use super::piece::Piece;
 use super::settle::settle;
-use super::{active_cells, cells_at, first_new_vertex};
+use super::{cells_at, first_new_vertex, sorted_without_simple};
 use crate::bernstein::Sign;
 use crate::contour::CellRanges;
 use crate::interpolant::TetrahedronCubics;
@@ -23,8 +23,8 @@ pub fn points_per_side_within(
     triangles: usize,
 ) -> u32 {
     let of_level = |&level: &f64| {
-        let active = active_cells(interpolant, ranges, level);
-        let mut cells = cells_at(interpolant, ranges, level, &active, &active);
+        let sorted = |band| sorted_without_simple(interpolant, ranges, band);
+        let (_, mut cells) = cells_at(interpolant, ranges, level, sorted);
         let settled = settle(&mut cells, first_new_vertex(interpolant), |_, _| {});
         let pieces = settled.pieces.iter();
         let drawn = pieces.filter(|piece| !piece.is_collapsed(&cells[piece.cell as usize]));

@@ -26,14 +26,14 @@ pub use contour_surface::{ContourSurface, SurfaceCounts, SurfacePoint};
 use rayon::prelude::*;
 
 use crate::contour::CellRanges;
-use crate::contour::rounding::{self, Rounding};
+use crate::contour::rounding::{LevelBand, Rounding};
 use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
 use cell::Cell;
 use patch::Patch;
 use piece::Piece;
 use settle::settle;
-use simple::Sorted;
+use simple::{SimpleCells, Sorted};
 use surface_builder::{Level, add_level};
 use tessellation::Tessellation;
 use walls::Walls;
@@ -80,16 +80,14 @@ pub fn contour_surface(
         Fineness::Tolerance(tolerance) => (2, Some(tolerance)),
     };
     for &level in levels {
-        let Sorted { mut simple, others, around } = match fineness {
-            Fineness::PointsPerSide(3..) => {
-                Sorted::without_simple(active_cells(interpolant, ranges, level))
-            }
+        let sorted = |band: LevelBand| match fineness {
+            Fineness::PointsPerSide(3..) => sorted_without_simple(interpolant, ranges, band),
             _ => {
-                let near = ranges.cells_near(level, |range| rounding::of_range(range, level));
-                Sorted::new(interpolant, level, &near, tolerance)
+                let near = ranges.cells_near(level, |range| band.of_range(range));
+                Sorted::new(interpolant, band, &near, tolerance)
             }
         };
-        let mut cells = cells_at(interpolant, ranges, level, &others, &around);
+        let (mut simple, mut cells) = cells_at(interpolant, ranges, level, sorted);
         surface.counts.active += simple.len() + cells.len();
         let first_new_vertex = first_new_vertex(interpolant);
         let settled = settle(&mut cells, first_new_vertex, |marks, cells| {
@@ -113,9 +111,14 @@ fn first_new_vertex(interpolant: &dyn TetrahedronCubics) -> u32 {
     interpolant.mesh().points().len() as u32
 }
 
-/// The numbers of the cells that may hold a level.
-fn active_cells(interpolant: &dyn TetrahedronCubics, ranges: &CellRanges, level: f64) -> Vec<u32> {
-    ranges.cells_at(level, |range| rounding::of_range(range, level), bounds(interpolant))
+/// The cells that may hold a level; none is taken to be simple.
+fn sorted_without_simple(
+    interpolant: &dyn TetrahedronCubics,
+    ranges: &CellRanges,
+    band: LevelBand,
+) -> Sorted {
+    let tolerance = |range: [f64; 2]| band.of_range(range);
+    Sorted::without_simple(ranges.cells_at(band.level, tolerance, bounds(interpolant)))
 }
 
 /// The bounds of the cubic of a cell, by its number: those by which it is active.
@@ -123,28 +126,39 @@ fn bounds(interpolant: &dyn TetrahedronCubics) -> impl Fn(usize) -> [f64; 2] + S
     |cell| interpolant.cubic(cell).value_bounds()
 }
 
-/// Cells at a level, by their numbers; `around` are all active ones that share points with them,
-/// themselves included: what lies on the level is decided by all around it.
+/// The cells at a level: the simple ones, and the others. `sorted` gives them by their numbers, for a
+/// band around the level.
 fn cells_at(
     interpolant: &dyn TetrahedronCubics,
     ranges: &CellRanges,
     level: f64,
-    numbers: &[u32],
-    around: &[u32],
-) -> Vec<Cell> {
-    let rounding = Rounding::new(interpolant.mesh(), bounds(interpolant), level, around);
-    let walls = Walls::new(interpolant, ranges, &rounding, around);
+    sorted: impl Fn(LevelBand) -> Sorted,
+) -> (SimpleCells, Vec<Cell>) {
+    let in_band = |band: LevelBand| {
+        let sorted = sorted(band);
+        // what lies on the level is decided by all around it
+        let rounding = Rounding::new(interpolant.mesh(), bounds(interpolant), band, &sorted.around);
+        let walls = Walls::new(interpolant, ranges, &rounding, &sorted.around);
+        (sorted, rounding, walls)
+    };
+    let mut found = in_band(LevelBand::new(level));
+    let of_walls = found.2.distance();
+    if of_walls > 0.0 {
+        // a cell of little spread may be at the same wall, and by itself not near the level
+        found = in_band(LevelBand { level, of_walls });
+    }
+    let (Sorted { simple, others, .. }, rounding, walls) = found;
     let cell = |&number: &u32| {
         checkpoint();
         Cell::new(interpolant, &rounding, &walls, number)
     };
     // of known length, so that it is not put together of parts, which takes twice the memory
-    let cells: Vec<Option<Cell>> = numbers.par_iter().map(cell).collect();
+    let cells: Vec<Option<Cell>> = others.par_iter().map(cell).collect();
     let mut cells: Vec<Cell> = cells.into_iter().flatten().collect();
     handedness::settle_slivers(&mut cells);
     plateaus::settle_plateaus(&mut cells);
     flat_faces::leave_to_patches(&mut cells);
-    cells
+    (simple, cells)
 }
 
 /// Cells that have nothing on the level, nor so near that rounding might put it there.

@@ -16,7 +16,8 @@ use super::handedness::{is_sliver, signed_volume};
 use super::tessellation::corner_edges;
 use crate::bernstein::{PatchCertificate, SegmentCubic, Sign, TetrahedronCubic};
 use crate::contour::crossings::crossings;
-use crate::contour::{holds, rounding};
+use crate::contour::holds;
+use crate::contour::rounding::{self, LevelBand};
 use crate::interpolant::TetrahedronCubics;
 use crate::interruption::checkpoint;
 use crate::mesh::{TetrahedronFrame, Vector, ascending_corners};
@@ -60,13 +61,13 @@ impl Sorted {
     /// triangle between crossings of edges is farther than that from the surface.
     pub fn new(
         interpolant: &dyn TetrahedronCubics,
-        level: f64,
+        band: LevelBand,
         cells: &[u32],
         tolerance: Option<f64>,
     ) -> Self {
         let judge = |&number: &u32| {
             checkpoint();
-            judge(interpolant, level, number, tolerance)
+            judge(interpolant, band, number, tolerance)
         };
         let judged: Vec<Judged> = cells.par_iter().map(judge).collect();
         let numbers = |wanted: &dyn Fn(&Judged) -> bool| -> Vec<u32> {
@@ -138,7 +139,7 @@ enum Judged {
 
 fn judge(
     interpolant: &dyn TetrahedronCubics,
-    level: f64,
+    band: LevelBand,
     number: u32,
     tolerance: Option<f64>,
 ) -> Judged {
@@ -146,7 +147,8 @@ fn judge(
     let corners = mesh.corners(number as usize);
     let cubic = interpolant.cubic(number as usize);
     let bounds = cubic.bounds().into();
-    let may_hold = |range: [f64; 2]| holds(range, level, |range| rounding::of_range(range, level));
+    let level = band.level;
+    let may_hold = |range: [f64; 2]| holds(range, level, |range| band.of_range(range));
     // closer bounds matter only where the level is not between vertices
     let [a, b, c, d] = cubic.vertices().map(|value| value < level);
     let is_between = (a | b | c | d) & !(a & b & c & d);
@@ -161,7 +163,7 @@ fn judge(
     let is_clear =
         |values: &[f64], near: f64| values.iter().fold(true, |all, v| all & (v.abs() > near));
     let is_clear = is_clear(&above_level.coefficients, rounding::of_coefficients(bounds, level))
-        && is_clear(&above_level.vertices(), rounding::of_range(bounds, level));
+        && is_clear(&above_level.vertices(), band.of_range(bounds));
     let signs = above_level.vertices().map(Sign::of);
     if !is_clear || above_level.patch_certificate(signs) != PatchCertificate::Patch {
         return Judged::Other;

@@ -31,6 +31,8 @@ pub struct Walls {
     edges: Vec<[u32; 2]>,
     /// For each of their points, how the solution rises from there into the domain.
     rises: HashMap<u32, f64>,
+    /// How far from the level the value at one of their points is at most.
+    distance: f64,
 }
 
 /// How far the inner coefficients of a wall may be from the level, as a part of the spread of
@@ -45,10 +47,15 @@ const NO_SLOPE: f64 = 1e-2;
 /// next to a point do.
 const OF_ALL: f64 = 0.2;
 
-/// A face of the boundary with all corners on the level.
+/// A face of the boundary that may be on a wall, by the values at its corners.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     face: [u32; 3],
+    area: f64,
+    /// How far from the level the value at a corner is at most.
+    distance: f64,
+    /// Whether its corners are on the level without regard to the rest of a wall.
+    is_on_level: bool,
     /// Whether its inner coefficients are near enough to the level.
     is_near: bool,
     /// Whether the surface runs beside it, inside the cell, all along.
@@ -61,6 +68,10 @@ impl Walls {
     /// Faces without a point inside are no wall: few points of the same value are what a solution
     /// has that is symmetric. A wall that the surface follows inside the cells all
     /// along, as the ball around a hole, is left to it.
+    ///
+    /// A wall has one value, and is taken as a whole: it is on the level if the greater part of its
+    /// area is by itself. A first call, with a band without width, finds faces that are; a second,
+    /// with a band as wide as their [`distance`](Self::distance) and the cells in it, the whole.
     pub fn new(
         interpolant: &dyn TetrahedronCubics,
         ranges: &CellRanges,
@@ -76,16 +87,24 @@ impl Walls {
         let mut lone: Vec<Candidate> =
             alone.filter(|sides| sides.len() == 1).map(|sides| sides[0]).collect();
         remove_faces_of_left_out_cells(&mut lone, interpolant, ranges);
-        let faces = walls_among(&lone);
-        if faces.is_empty() {
+        let found = walls_among(&lone);
+        if found.is_empty() {
             return Self::default();
         }
+        let distance = found.iter().map(|face| face.distance).fold(0.0, f64::max);
+        let faces: Vec<[u32; 3]> = found.into_iter().map(|found| found.face).collect();
         let mut edges: Vec<[u32; 2]> = faces.iter().flat_map(|&face| edges_of(face)).collect();
         edges.sort_unstable();
         edges.dedup();
-        let mut walls = Self { faces, edges, rises: HashMap::new() };
+        let mut walls = Self { faces, edges, rises: HashMap::new(), distance };
         walls.rises = walls.rises_from(interpolant, rounding.level(), cells);
         walls
+    }
+
+    /// How far from the level the value at a point of a wall is at most: cells that are so near
+    /// to the level may be at a wall as well.
+    pub fn distance(&self) -> f64 {
+        self.distance
     }
 
     /// How the solution rises from the corners of a cell into the domain, for those that are on
@@ -197,7 +216,7 @@ impl Walls {
     }
 }
 
-/// The faces of a cell with all corners on the level; none of a plateau, which is exact as it is.
+/// The faces of a cell that may be on a wall; none of a plateau, which is exact as it is.
 fn candidates(
     interpolant: &dyn TetrahedronCubics,
     rounding: &Rounding,
@@ -207,25 +226,35 @@ fn candidates(
     let cubic = interpolant.cubic(cell);
     let is_plateau = less_level(&cubic, points, rounding).coefficients == [0.0; 20];
     let values = cubic.vertices();
-    let on_level = [0, 1, 2, 3].map(|n| rounding.is_on_level(points[n], values[n]));
-    let count = on_level.iter().filter(|on_level| **on_level).count();
-    let is_candidate = move |&n: &usize| count == 4 || (count == 3 && !on_level[n]);
+    let may_be_on_wall = [0, 1, 2, 3].map(|n| rounding.may_be_on_wall(points[n], values[n]));
+    let count = may_be_on_wall.iter().filter(|may_be| **may_be).count();
+    let is_candidate = move |&n: &usize| count == 4 || (count == 3 && !may_be_on_wall[n]);
     let opposite = (0..4).filter(move |n| !is_plateau && is_candidate(n));
-    let level = rounding.level();
-    opposite.map(move |opposite| candidate(&cubic, points, opposite, level))
+    opposite.map(move |opposite| candidate(interpolant, rounding, cell, opposite))
 }
 
-fn candidate(cubic: &TetrahedronCubic, points: [u32; 4], opposite: usize, level: f64) -> Candidate {
+fn candidate(
+    interpolant: &dyn TetrahedronCubics,
+    rounding: &Rounding,
+    cell: usize,
+    opposite: usize,
+) -> Candidate {
+    let (mesh, cubic) = (interpolant.mesh(), interpolant.cubic(cell));
+    let (points, values) = (mesh.tetrahedra()[cell], cubic.vertices());
     let corners = TetrahedronCubic::FACE_VERTICES[opposite];
     let mut face = corners.map(|n| points[n]);
     face.sort_unstable();
+    let [a, b, c] = corners.map(|n| mesh.corners(cell)[n]);
     let (low, high) = cubic.bounds();
-    let whole = cubic.minus(level);
+    let whole = cubic.minus(rounding.level());
     let on_face = whole.face(corners).coefficients;
     let inner = || (0..10).filter(|n| ![0, 6, 9].contains(n)).map(|n| on_face[n]);
     let beside = side(&whole, opposite);
     Candidate {
         face,
+        area: 0.5 * (b - a).cross(&(c - a)).norm(),
+        distance: corners.map(|n| whole.vertices()[n].abs()).into_iter().fold(0.0, f64::max),
+        is_on_level: corners.iter().all(|&n| rounding.is_on_level(points[n], values[n])),
         is_near: inner().all(|value| value.abs() <= OF_WALL * (high - low)),
         is_followed: inner().all(|value| value * beside < 0.0),
     }
@@ -267,23 +296,29 @@ fn remove_faces_of_left_out_cells(
 }
 
 /// The faces that are walls: those near the level that hang together by their edges, if they
-/// have a point inside, and the surface does not follow all of them; and those between points
-/// of walls, however far the cubic weaves there.
-fn walls_among(candidates: &[Candidate]) -> Vec<[u32; 3]> {
+/// have a point inside, the greater part of their area is on the level, and the surface does not
+/// follow all of them; and those between points of walls, however far the cubic weaves there.
+fn walls_among(candidates: &[Candidate]) -> Vec<Candidate> {
     let near: Vec<Candidate> = candidates.iter().filter(|c| c.is_near).copied().collect();
     let component = components(near.len(), |n| edges_of(near[n].face));
     let rim = rim(&near);
     let mut has_inside = vec![false; near.len()];
     let mut followed = vec![true; near.len()];
+    let (mut area, mut on_level) = (vec![0.0; near.len()], vec![0.0; near.len()]);
     for (candidate, &component) in near.iter().zip(&component) {
+        area[component] += candidate.area;
+        on_level[component] += if candidate.is_on_level { candidate.area } else { 0.0 };
         has_inside[component] |= candidate.face.iter().any(|point| !rim.contains(point));
         followed[component] &= candidate.is_followed;
     }
-    let is_wall = |component: usize| has_inside[component] && !followed[component];
+    let is_wall = |component: usize| {
+        let is_on_level = 2.0 * on_level[component] >= area[component];
+        is_on_level && has_inside[component] && !followed[component]
+    };
     let of_walls = near.iter().zip(component).filter(|(_, component)| is_wall(*component));
     let points: HashSet<u32> = of_walls.flat_map(|(candidate, _)| candidate.face).collect();
-    let between = candidates.iter().filter(|c| c.face.iter().all(|point| points.contains(point)));
-    between.map(|candidate| candidate.face).collect()
+    let is_between = |c: &&Candidate| c.face.iter().all(|point| points.contains(point));
+    candidates.iter().filter(is_between).copied().collect()
 }
 
 /// The ends of edges that only one of the faces has.
@@ -302,7 +337,12 @@ mod tests {
     use super::*;
 
     fn candidate(face: [u32; 3], is_followed: bool) -> Candidate {
-        Candidate { face, is_near: true, is_followed }
+        let (area, distance) = (1.0, 0.0);
+        Candidate { face, area, distance, is_on_level: true, is_near: true, is_followed }
+    }
+
+    fn faces_among(candidates: &[Candidate]) -> Vec<[u32; 3]> {
+        walls_among(candidates).into_iter().map(|found| found.face).collect()
     }
 
     /// Four faces around point 0.
@@ -313,18 +353,28 @@ mod tests {
         let strip = [[5, 6, 7], [6, 7, 8]];
         let faces: Vec<Candidate> =
             AROUND.iter().chain(&strip).map(|&face| candidate(face, false)).collect();
-        assert_eq!(walls_among(&faces), AROUND);
+        assert_eq!(faces_among(&faces), AROUND);
     }
 
     #[test]
     fn a_wall_that_is_followed_all_along_is_left_to_the_surface() {
-        assert!(walls_among(&AROUND.map(|face| candidate(face, true))).is_empty());
+        assert!(faces_among(&AROUND.map(|face| candidate(face, true))).is_empty());
         let woven = AROUND.map(|face| candidate(face, face[1] == 1));
-        assert_eq!(walls_among(&woven), AROUND);
+        assert_eq!(faces_among(&woven), AROUND);
         let far = Candidate { is_near: false, ..candidate([1, 2, 3], false) };
         let beside = Candidate { is_near: false, ..candidate([1, 2, 5], false) };
-        let found = walls_among(&[&woven[..], &[far, beside]].concat());
+        let found = faces_among(&[&woven[..], &[far, beside]].concat());
         assert_eq!(found, [&AROUND[..], &[far.face]].concat());
+    }
+
+    #[test]
+    fn a_wall_is_on_the_level_if_the_greater_part_of_its_area_is() {
+        let off = Candidate { is_on_level: false, ..candidate(AROUND[0], false) };
+        for (area, expected) in [(2.0, &AROUND[..]), (4.0, &[])] {
+            let wall = AROUND.map(|face| candidate(face, false));
+            let wall = [&[Candidate { area, ..off }], &wall[1..]].concat();
+            assert_eq!(faces_among(&wall), expected);
+        }
     }
 
     #[test]
@@ -333,6 +383,7 @@ mod tests {
             faces: vec![[0, 1, 2]],
             edges: vec![[0, 1], [0, 2], [1, 2]],
             rises: [(0, 1.0), (1, 1.0), (2, -1.0)].into(),
+            distance: 0.0,
         };
         // points 0 and 2 are at the wall, 7 and 8 inside
         let cubic = TetrahedronCubic::from_coefficients(|e| e[2] as f64 + 10.0 * e[0] as f64);

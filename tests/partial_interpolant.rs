@@ -13,8 +13,8 @@ use vtu2contour::filter::{
     ContourOptions, GradientSource, Interpolant, Solution, contour, preview,
 };
 use vtu2contour::interpolant::{
-    Pci, TetrahedronCubics, TriangleCubics, Tricubic, reach_in_tetrahedron, reach_on_triangle,
-    rough_reach_in_tetrahedron,
+    JointReach, Pci, TetrahedronCubics, TriangleCubics, Tricubic, reach_in_tetrahedron,
+    reach_on_triangle,
 };
 use vtu2contour::mesh::{SimplexMesh, Subset, Vector};
 use vtu2contour::vtk::UnstructuredGrid;
@@ -122,16 +122,40 @@ proptest! {
             let cubic = tricubic.cubic(tetrahedron);
             let is_finite = cubic.coefficients.iter().all(|b| b.is_finite());
             let reach = reach_in_tetrahedron(&solid, &field, tetrahedron);
-            let rough = rough_reach_in_tetrahedron(&solid, &field, tetrahedron);
-            prop_assert_eq!([reach.is_some(), rough.is_some()], [is_finite; 2]);
-            if let (Some(reach), Some(rough)) = (reach, rough) {
-                prop_assert!(within(reach, cubic.value_bounds()) && within(rough, reach));
-                // in time for nothing would be no bounds
-                let [wide, close] = [rough, reach].map(|[low, high]| high - low);
-                prop_assert!(wide <= 2.0 * close + 1e-9, "{rough:?} {reach:?}");
-            }
+            prop_assert_eq!(reach.is_some(), is_finite);
+            prop_assert!(reach.is_none_or(|reach| within(reach, cubic.value_bounds())));
         }
+        let on_triangle = |cell| reach_on_triangle(&plane, &field, cell);
+        joint_reaches_hold_all(&mut random, &plane, field, &on_triangle)?;
+        let in_tetrahedron = |cell| reach_in_tetrahedron(&solid, &field, cell);
+        joint_reaches_hold_all(&mut random, &solid, field, &in_tetrahedron)?;
     }
+}
+
+/// The reach of cells that follow each other holds that of each, and the values at its vertices, as
+/// they are; there is one if all are finite.
+fn joint_reaches_hold_all<const CORNERS: usize>(
+    random: &mut Random,
+    mesh: &SimplexMesh<CORNERS>,
+    field: Field,
+    reach: &dyn Fn(usize) -> Option<[f64; 2]>,
+) -> Result<(), TestCaseError> {
+    for _ in 0..50 {
+        let first = below(random, mesh.simplices().len());
+        let cells = first..mesh.simplices().len().min(first + 1 + below(random, 4));
+        let reaches: Option<Vec<_>> = cells.clone().map(reach).collect();
+        let joint = JointReach::new(mesh, &field, cells.clone());
+        prop_assert_eq!(joint.is_some(), reaches.is_some());
+        let (Some(joint), Some(reaches)) = (joint, reaches) else { continue };
+        let [low, high] = joint.range();
+        prop_assert!(reaches.iter().all(|reach| low <= reach[0] && reach[1] <= high));
+        let corners = mesh.simplices()[cells].iter().flatten();
+        let values: Vec<f64> = corners.map(|&point| field.values[point as usize]).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        prop_assert_eq!(joint.at_vertices(), [least, greatest]);
+    }
+    Ok(())
 }
 
 /// What is drawn and what is reported are those of the interpolant that is computed everywhere.

@@ -337,7 +337,7 @@ mod tests {
     #[test]
     fn ranges_of_some_by_hand() {
         let bounds = |cell: usize| (cell != 2).then_some([0.0, 9.0]);
-        let bounded = BlockRanges::new(40, bounds, |_| [0.0], |cell| cell == 3);
+        let bounded = BlockRanges::new(40, |_| None, bounds, |_| [0.0], |cell| cell == 3);
         // the cubic of one cell is not finite after all
         let cubic = |cell: usize| {
             let high = if cell == 30 { f64::NAN } else { cell as f64 };

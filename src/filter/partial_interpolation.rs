@@ -11,11 +11,9 @@ use super::interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangle
 use super::options::{ContourOptions, InterpolantKind};
 use super::solution::{Domain, Solution};
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
-use crate::contour::{BlockRanges, CellCubic, CellRanges, Levels, holds_any};
+use crate::contour::{BlockRanges, CellCubic, CellRanges, JointBounds, Levels, holds_any};
 use crate::field::Field;
-use crate::interpolant::{
-    Pci, Tricubic, reach_in_tetrahedron, reach_on_triangle, rough_reach_in_tetrahedron,
-};
+use crate::interpolant::{JointReach, Pci, Tricubic, reach_in_tetrahedron, reach_on_triangle};
 use crate::mesh::{SimplexMesh, Subset, TetrahedronMesh, TriangleMesh};
 
 impl Interpolation {
@@ -101,7 +99,11 @@ where
         let (mesh, field) = (&domain.mesh, solution.field(domain));
         let ranges = BlockRanges::new(
             domain.count(),
-            |cell| Coefficients::rough_reach(mesh, &field, cell),
+            |cells| {
+                let reach = JointReach::new(mesh, &field, cells)?;
+                Some(JointBounds { bounds: reach.range(), at_vertices: reach.at_vertices() })
+            },
+            |cell| Coefficients::reach(mesh, &field, cell),
             |cell| mesh.simplices()[cell].map(|point| field.values[point as usize]),
             |cell| domain.is_ghost(cell),
         );
@@ -136,9 +138,6 @@ trait InSome<const CORNERS: usize> {
     /// The bounds of a cubic by its cell's own data; nothing if these are not finite.
     fn reach(mesh: &SimplexMesh<CORNERS>, field: &Field, cell: usize) -> Option<[f64; 2]>;
 
-    /// The same or wider, in less time.
-    fn rough_reach(mesh: &SimplexMesh<CORNERS>, field: &Field, cell: usize) -> Option<[f64; 2]>;
-
     /// The interpolant in some cells.
     fn in_some(mesh: &SimplexMesh<CORNERS>, field: Field, cells: &Subset) -> Self;
 
@@ -154,10 +153,6 @@ impl InSome<3> for OnTriangles {
     type Cubic = TriangleCubic;
 
     fn reach(mesh: &TriangleMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
-        reach_on_triangle(mesh, field, cell)
-    }
-
-    fn rough_reach(mesh: &TriangleMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
         reach_on_triangle(mesh, field, cell)
     }
 
@@ -180,10 +175,6 @@ impl InSome<4> for OnTetrahedra {
 
     fn reach(mesh: &TetrahedronMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
         reach_in_tetrahedron(mesh, field, cell)
-    }
-
-    fn rough_reach(mesh: &TetrahedronMesh, field: &Field, cell: usize) -> Option<[f64; 2]> {
-        rough_reach_in_tetrahedron(mesh, field, cell)
     }
 
     fn in_some(mesh: &TetrahedronMesh, field: Field, cells: &Subset) -> Self {

@@ -9,11 +9,11 @@
 //!
 //! Source: ours.
 
-use super::hermite::{Known, beside};
+use super::hermite::Known;
 use super::pci;
 use crate::bernstein::{TetrahedronCubic, TriangleCubic, joined, value_bounds};
 use crate::field::Field;
-use crate::mesh::{TetrahedronMesh, TriangleMesh, Vector, ascending_corners};
+use crate::mesh::{TetrahedronMesh, TriangleMesh, ascending_corners};
 
 /// Between which numbers the values of a triangle's cubic are, without a PDE; nothing if one of
 /// what they come of is not finite.
@@ -43,61 +43,10 @@ pub fn reach_in_tetrahedron(
     Some(value_bounds(on_edges, amid_faces, TetrahedronCubic::SHARE_OF_FACES))
 }
 
-/// The same, or numbers a little further outside, in less time.
-///
-/// All corners are treated alike, for computers do four such things at a time: what belongs to no
-/// edge, from a corner to itself, is the corner's value, which is in the range anyway.
-pub fn rough_reach_in_tetrahedron(
-    mesh: &TetrahedronMesh,
-    field: &Field,
-    tetrahedron: usize,
-) -> Option<[f64; 2]> {
-    let points = mesh.tetrahedra()[tetrahedron].map(|point| point as usize);
-    let values = points.map(|point| field.values[point]);
-    let [x, y, z] = [0, 1, 2].map(|axis| points.map(|point| mesh.points()[point][axis]));
-    let (mut least, mut greatest) = (values, values);
-    // of the coefficients beside each corner, those at its own edges
-    let mut at_corner = values.map(|value| -2.0 * value);
-    for (from, point) in points.into_iter().enumerate() {
-        let gradient = &field.gradients[point];
-        let mut sum = 0.0;
-        for to in 0..4 {
-            let edge = Vector::new(x[to] - x[from], y[to] - y[from], z[to] - z[from]);
-            let coefficient = beside(values[from], gradient, &edge);
-            least[to] = if coefficient < least[to] { coefficient } else { least[to] };
-            greatest[to] = if coefficient > greatest[to] { coefficient } else { greatest[to] };
-            at_corner[to] += coefficient;
-            sum += coefficient;
-        }
-        at_corner[from] += sum;
-    }
-    let [low, high] = joined_four([0, 1, 2, 3].map(|corner| [least[corner], greatest[corner]]));
-    // both ends of each edge were counted
-    let all = (at_corner[0] + at_corner[1] + at_corner[2] + at_corner[3]) / 2.0;
-    let vertices = values[0] + values[1] + values[2] + values[3];
-    if !(all + vertices).is_finite() {
-        return reach_in_tetrahedron(mesh, field, tetrahedron);
-    }
-    let amid = [0, 1, 2, 3].map(|opposite| {
-        let centre = (all - at_corner[opposite]) / 4.0 - (vertices - values[opposite]) / 6.0;
-        [centre, centre]
-    });
-    let [lowest, highest] = joined_four(amid);
-    // a face's spread is no more than the tetrahedron's
-    let spread = high - low;
-    let rounding = ROUNDING * low.abs().max(high.abs());
-    let amid_faces = [lowest - spread - rounding, highest + spread + rounding];
-    let [low, high] = value_bounds([low, high], amid_faces, TetrahedronCubic::SHARE_OF_FACES);
-    Some([low - rounding, high + rounding])
-}
-
 /// The range of what is in four ranges.
 fn joined_four([a, b, c, d]: [[f64; 2]; 4]) -> [f64; 2] {
     joined(joined(a, b), joined(c, d))
 }
-
-/// Sums of this order of size, in another order, differ by less than this part of the greatest.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 fn of_triangle(cubic: &TriangleCubic) -> Option<[f64; 2]> {
     let [a, ab, ac, ba, centre, ca, b, bc, cb, c] = cubic.coefficients;

@@ -75,15 +75,20 @@ impl<'a> Tricubic<'a> {
     ///
     /// It takes time and memory for them and their neighbours alone.
     pub fn in_some(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, tetrahedra: &Subset) -> Self {
-        let speaking = tetrahedra.with_neighbours(mesh);
-        let around = speaking.with_neighbours(mesh);
+        // Three rings of neighbours are among those that touch them: each ring has one point less, at
+        // least, at theirs than the one before.
+        let nearby = tetrahedra.with_sharing(mesh, 1);
+        let part = mesh.part(&nearby);
+        let places = tetrahedra.simplices().filter_map(|tetrahedron| nearby.place(tetrahedron));
+        let wanted = Subset::of_numbers(nearby.len(), places);
+        let speaking = wanted.with_neighbours(&part);
+        let around = speaking.with_neighbours(&part);
         if around.len() > mesh.tetrahedra().len() / 2 {
             return Self::new(mesh, field);
         }
-        let around = Surroundings::new(mesh, around);
-        let far = Surroundings::of_outermost(mesh, &speaking, &around);
-        drop(speaking);
-        let coefficients = completed_in(&field, tetrahedra, &around, &far);
+        let around = Surroundings::new(&part, around);
+        let far = Surroundings::of_outermost(&part, &speaking, &around);
+        let coefficients = completed_in(&field, &wanted, &around, &far);
         Self::without_pde(mesh, field, PerCell::Some(tetrahedra.clone(), coefficients))
     }
 

@@ -98,6 +98,15 @@ impl Subset {
 
     /// These, and all that share a side with one of them: all points but one.
     pub fn with_neighbours<const CORNERS: usize>(&self, mesh: &SimplexMesh<CORNERS>) -> Self {
+        self.with_sharing(mesh, CORNERS - 1)
+    }
+
+    /// These, and all that have at least so many corners at points of these.
+    pub fn with_sharing<const CORNERS: usize>(
+        &self,
+        mesh: &SimplexMesh<CORNERS>,
+        corners: usize,
+    ) -> Self {
         if self.is_empty() {
             return self.clone();
         }
@@ -106,11 +115,12 @@ impl Subset {
         for point in self.simplices().flat_map(|simplex| simplices[simplex]) {
             is_near[point as usize] = true;
         }
-        let near = |simplex: usize| {
-            let corners = simplices[simplex].iter();
-            corners.filter(|&&point| is_near[point as usize]).count()
-        };
-        Self::new(simplices.len(), |simplex| near(simplex) + 1 >= CORNERS)
+        // most are known to share too few before all corners are looked at
+        let is_far = |point: &&u32| !is_near[**point as usize];
+        Self::new(simplices.len(), |simplex| {
+            let mut far = simplices[simplex].iter().filter(is_far);
+            far.nth(CORNERS - corners).is_none()
+        })
     }
 }
 
@@ -146,5 +156,8 @@ mod tests {
         assert_eq!(ring.simplices().collect::<Vec<_>>(), [1, 2, 3]);
         let two_rings = ring.with_neighbours(&mesh);
         assert_eq!(two_rings.simplices().collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
+        let last = Subset::new(6, |triangle| triangle == 5);
+        let touching = last.with_sharing(&mesh, 1);
+        assert_eq!(touching.simplices().collect::<Vec<_>>(), [3, 4, 5]);
     }
 }

@@ -111,15 +111,14 @@ impl Subset {
             return self.clone();
         }
         let simplices = mesh.simplices();
-        let mut is_near = vec![false; mesh.points().len()];
+        let mut near = vec![0_u64; mesh.points().len().div_ceil(WORD)];
         for point in self.simplices().flat_map(|simplex| simplices[simplex]) {
-            is_near[point as usize] = true;
+            near[point as usize / WORD] |= 1 << (point as usize % WORD);
         }
         // most are known to share too few before all corners are looked at
-        let is_far = |point: &&u32| !is_near[**point as usize];
+        let is_near = |point: u32| near[point as usize / WORD] >> (point as usize % WORD) & 1;
         Self::new(simplices.len(), |simplex| {
-            let mut far = simplices[simplex].iter().filter(is_far);
-            far.nth(CORNERS - corners).is_none()
+            simplices[simplex].map(is_near).into_iter().sum::<u64>() >= corners as u64
         })
     }
 }

@@ -56,6 +56,7 @@ pub mod field;
 pub mod filter;
 pub mod interpolant;
 pub mod interruption;
+mod large_pages;
 pub mod mesh;
 pub mod monitor;
 pub mod pde;

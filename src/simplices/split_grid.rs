@@ -10,6 +10,7 @@ use super::left_out::LeftOut;
 use super::orientation::{Lie, orient_one};
 use super::splitter::{Splitter, is_tetrahedron};
 use crate::interruption::checkpoint;
+use crate::large_pages;
 use crate::mesh::Vector;
 use crate::vtk::{ArrayError, DataArray, UnstructuredGrid, Values};
 
@@ -126,7 +127,8 @@ fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pie
         orient_one(&mut corners, positions);
         corners
     });
-    let simplices = cells.collect();
+    let mut simplices = large_pages::with_room(count);
+    simplices.par_extend(cells);
     let is_whole = !has_collapsed.into_inner();
     is_whole.then(|| Pieces { simplices, parents: (0..count as u32).collect() })
 }
@@ -144,8 +146,14 @@ fn check(grid: &UnstructuredGrid, points: usize) -> Result<(), SplitError> {
 /// The tuples of an array of three components (or two, with z = 0).
 pub fn vectors(array: &DataArray) -> Option<Vec<Vector>> {
     let vectors = |values: &[f64]| match array.components {
-        3 => Some(values.chunks_exact(3).map(Vector::from_column_slice).collect()),
-        2 => Some(values.chunks_exact(2).map(|p| Vector::new(p[0], p[1], 0.0)).collect()),
+        3 => {
+            let (tuples, _) = values.as_chunks::<3>();
+            Some(large_pages::collected(tuples.iter().copied().map(Vector::from)))
+        }
+        2 => {
+            let (tuples, _) = values.as_chunks::<2>();
+            Some(large_pages::collected(tuples.iter().map(|&[x, y]| Vector::new(x, y, 0.0))))
+        }
         _ => None,
     };
     match &array.values {

@@ -8,6 +8,7 @@ use super::scalar::Scalar;
 use super::values::match_type;
 use super::xml::Node;
 use super::xml_file::{Budget, XmlFile};
+use crate::large_pages;
 
 /// The names of the two arrays that hold lists of indices.
 #[derive(Clone, Copy)]
@@ -115,7 +116,7 @@ pub(super) fn read_lists(
         parts.push(open.map_err(|e| source.error(names.connectivity, e))?);
     }
     let total = offsets.last().copied().unwrap_or(0);
-    let mut connectivity = vec![0i64; usize::try_from(total).unwrap_or(0)];
+    let mut connectivity = large_pages::zeros(usize::try_from(total).unwrap_or(0));
     let mut rest = &mut connectivity[..];
     let mut shift = 0;
     for ((source, part), total) in sources.iter().zip(parts).zip(totals) {
@@ -146,7 +147,7 @@ fn read_offsets(
     }
     let counts: Vec<usize> = parts.iter().map(|p| p.as_ref().map_or(0, Integers::count)).collect();
     let lists = counts.iter().fold(1usize, |sum, count| sum.saturating_add(*count));
-    let mut offsets = vec![0i64; lists];
+    let mut offsets = large_pages::zeros(lists);
     let mut totals = Vec::with_capacity(sources.len());
     let mut start = 0;
     for ((source, part), count) in sources.iter().zip(parts).zip(counts) {

@@ -8,6 +8,7 @@ use super::payload::Payload;
 use super::scalar::Scalar;
 use super::values::{Values, match_type};
 use super::xml_file::{Budget, XmlFile};
+use crate::large_pages;
 
 /// Bytes that an array of unknown length may have besides four times its file.
 const UNBOUNDED: usize = 16 << 20;
@@ -166,7 +167,7 @@ impl<'a> OpenArray<'a> {
             total = total.checked_add(count).ok_or(too_many).map_err(part.flaw())?;
             counts.push(count);
         }
-        let mut values = vec![T::zeroed(); total];
+        let mut values = large_pages::zeros(total);
         let mut rest = &mut values[..];
         for (part, count) in self.parts.iter().zip(counts) {
             let (dest, after) = rest.split_at_mut(count);

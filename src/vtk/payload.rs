@@ -6,6 +6,7 @@ use super::compression::Compressor;
 use super::encoding::{ByteOrder, Coded, Coding, HeaderWord};
 use super::error::ArrayError;
 use super::scalar::Scalar;
+use crate::large_pages;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -155,7 +156,7 @@ impl<'a> Payload<'a> {
 
     /// All values in a new vector.
     pub(super) fn to_vec<T: Scalar>(&self) -> Result<Vec<T>, ArrayError> {
-        let mut values = vec![T::zeroed(); self.count(size_of::<T>())?];
+        let mut values = large_pages::zeros(self.count(size_of::<T>())?);
         self.decode(&mut values)?;
         Ok(values)
     }

@@ -182,7 +182,7 @@ const WORST_FIT: f64 = 0.5;
 const ROUNDING: f64 = 1e-7;
 
 /// So many simplices, evenly spread, tell whether a gradient fits: a mean needs no more.
-const SAMPLE: usize = 1 << 16;
+const SAMPLE: usize = 1 << 14;
 
 /// How much the values' differences along edges differ from the mean of the
 /// gradients at the ends, relative to the differences.

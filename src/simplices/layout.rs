@@ -3,6 +3,8 @@
 //! The tables follow the classes of VTK's Common/DataModel, faces counter-clockwise
 //! from outside.
 
+use std::ops::RangeInclusive;
+
 use super::left_out::Reason;
 
 /// A polygon or a face, as numbers of the cell's nodes.
@@ -108,6 +110,9 @@ fn reason(cell_type: u8, points: usize) -> Reason {
         _ => Reason::Unsupported,
     }
 }
+
+/// The types of which some cells are Bézier cells of order two.
+pub const BEZIER_2: RangeInclusive<u8> = 76..=80;
 
 /// Whether this is a Bézier cell of order two.
 pub fn is_bezier_2(cell_type: u8, points: usize) -> bool {

@@ -78,10 +78,13 @@ impl SplitGrid {
     /// itself. Cells that cannot be split are no error but counted.
     pub fn new(grid: &UnstructuredGrid) -> Result<Self, SplitError> {
         let points = vectors(&grid.points).ok_or(SplitError::Points)?;
-        check(grid, points.len())?;
+        if u32::try_from(points.len()).is_err() || u32::try_from(grid.types.len()).is_err() {
+            return Err(SplitError::TooLarge);
+        }
         if let Some(tetrahedra) = tetrahedra_alone(grid, &points) {
             return Ok(Self { points, tetrahedra, ..Self::default() });
         }
+        check(grid, points.len())?;
         let mut split = Self { points, ..Self::default() };
         // most grids are of simplices
         split.triangles.reserve(grid.types.iter().filter(|&&cell_type| cell_type == 5).count());
@@ -103,8 +106,8 @@ impl SplitGrid {
     }
 }
 
-/// The cells of a grid of nothing but tetrahedra, of which none has collapsed: what [`Splitter`]
-/// makes of them, all at once, for most large grids are such ones.
+/// The cells of a grid of nothing but tetrahedra, of which none has collapsed or names a point that
+/// is not there: what [`Splitter`] makes of them, all at once, for most large grids are such ones.
 fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pieces<4>> {
     let count = grid.types.len();
     let (offsets, types) = (grid.cells.offsets(), &grid.types);
@@ -117,11 +120,14 @@ fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pie
         return None;
     }
     let (cells, _) = grid.cells.connectivity().as_chunks::<4>();
-    let has_collapsed = AtomicBool::new(false);
+    let has_other = AtomicBool::new(false);
     let cells = cells.par_iter().map(|points| {
         checkpoint();
-        if !is_tetrahedron(points) {
-            has_collapsed.store(true, Ordering::Relaxed);
+        // one that is negative is a large one without its sign
+        let are_there = points.iter().all(|&point| (point as u64) < positions.len() as u64);
+        if !are_there || !is_tetrahedron(points) {
+            has_other.store(true, Ordering::Relaxed);
+            return [0; 4];
         }
         let mut corners = points.map(|point| point as u32);
         orient_one(&mut corners, positions);
@@ -129,15 +135,12 @@ fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pie
     });
     let mut simplices = large_pages::with_room(count);
     simplices.par_extend(cells);
-    let is_whole = !has_collapsed.into_inner();
-    is_whole.then(|| Pieces { simplices, parents: (0..count as u32).collect() })
+    let are_all = !has_other.into_inner();
+    are_all.then(|| Pieces { simplices, parents: large_pages::collected(0..count as u32) })
 }
 
-/// Refuses grids whose numbers are not those of points, or do not fit 32 bits.
+/// Refuses grids whose numbers are not those of points.
 fn check(grid: &UnstructuredGrid, points: usize) -> Result<(), SplitError> {
-    if u32::try_from(points).is_err() || u32::try_from(grid.types.len()).is_err() {
-        return Err(SplitError::TooLarge);
-    }
     grid.cells.check_indices(points).map_err(SplitError::Cells)?;
     let faces = grid.polyhedra.as_ref().map(|polyhedra| &polyhedra.faces);
     faces.map_or(Ok(()), |faces| faces.check_indices(points)).map_err(SplitError::Cells)
@@ -187,6 +190,17 @@ mod tests {
         assert_eq!(alone.tetrahedra, general.tetrahedra);
         assert_eq!(alone.tetrahedra.simplices[..2], [[0, 1, 2, 4], [1, 0, 4, 2]]);
         assert!(tetrahedra_alone(&grid(&cells, Some((1, vertex))), &alone.points).is_none());
+    }
+
+    #[test]
+    fn tetrahedra_alone_without_their_points_are_refused() {
+        // the second is one of the points that are there, to 32 bits
+        for wrong in [8, 1 << 32, -1, i64::MIN, i64::MAX] {
+            let mut grid = grid(&[[0, 1, 2, 4]], None);
+            grid.push_cell(10, &[1, 2, wrong, 7]);
+            let refused = SplitGrid::new(&grid).unwrap_err().to_string();
+            assert!(refused.contains(&wrong.to_string()), "{refused}");
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Cubic polynomials on a tetrahedron.
 
+use std::ops::{Add, Mul};
+
 use super::barycentric::Barycentric4;
 use super::bounds::{bounds, value_bounds};
 use super::segment::SegmentCubic;
@@ -198,8 +200,9 @@ impl TetrahedronCubic {
 
     /// The blossom at each vertex and twice at a place: what is left after two steps of de
     /// Casteljau.
-    pub(crate) fn blossoms(&self, at: &Barycentric4) -> [f64; 4] {
-        contract(&TO_LINEAR, &contract(&TO_QUADRATIC, &self.coefficients, at), at)
+    pub(crate) fn blossoms<N: Numbers>(&self, at: &[N; 4]) -> [N; 4] {
+        let quadratic: [N; 10] = contract(&TO_QUADRATIC, &self.coefficients, at);
+        contract(&TO_LINEAR, &quadratic, at)
     }
 
     /// The cubic on the edge from one vertex to another.
@@ -274,16 +277,24 @@ fn arguments(exponents: Exponents) -> [usize; 3] {
     vertices
 }
 
+/// A number, or several at a time.
+pub(crate) trait Numbers:
+    Copy + From<f64> + Add<Output = Self> + Mul<Output = Self>
+{
+}
+
+impl<N: Copy + From<f64> + Add<Output = N> + Mul<Output = N>> Numbers for N {}
+
 /// One step of de Casteljau's algorithm.
 #[inline]
-fn contract<const FROM: usize, const TO: usize>(
+fn contract<C: Copy + Into<N>, N: Numbers, const FROM: usize, const TO: usize>(
     parents: &[[usize; 4]; TO],
-    coefficients: &[f64; FROM],
-    at: &Barycentric4,
-) -> [f64; TO] {
-    let mut contracted = [0.0; TO];
+    coefficients: &[C; FROM],
+    at: &[N; 4],
+) -> [N; TO] {
+    let mut contracted = [N::from(0.0); TO];
     for (sum, of) in contracted.iter_mut().zip(parents) {
-        *sum = dot(&of.map(|position| coefficients[position]), at);
+        *sum = dot(&of.map(|position| coefficients[position].into()), at);
     }
     contracted
 }
@@ -292,7 +303,7 @@ fn contract<const FROM: usize, const TO: usize>(
 /// bit, and a face has the same values in both tetrahedra if they name its vertices in
 /// the same order.
 #[inline]
-fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+fn dot<N: Numbers>(a: &[N; 4], b: &[N; 4]) -> N {
     ((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]) + a[3] * b[3]
 }
 

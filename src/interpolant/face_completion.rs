@@ -24,15 +24,14 @@
 
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
+use wide::f64x4;
 
 use super::hermite::quadratic_precision_of;
 use super::limit::limited;
 use super::per_cell::PerCell;
-use crate::bernstein::{Barycentric4, TetrahedronCubic};
+use crate::bernstein::TetrahedronCubic;
 use crate::field::Field;
-use crate::mesh::{
-    Faces, Side, Subset, TetrahedronFrame, TetrahedronMesh, Vector, ascending_corners,
-};
+use crate::mesh::{Faces, Side, Subset, TetrahedronFrame, TetrahedronMesh, ascending_corners};
 
 /// What a tetrahedron says of each of its faces, by the opposite corner.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,10 +41,6 @@ pub(super) struct Estimate {
     /// How well each is determined: the inverse of its variance.
     weights: [f64; 4],
 }
-
-/// Half the power of the distance with which equations lose weight. The fourth would be
-/// as good; this one bears badly wrong gradients better.
-const ORDER: i32 = 3;
 
 /// The weight of a value beside that of a gradient.
 const VALUE: f64 = 0.01;
@@ -148,15 +143,13 @@ pub(super) fn estimate(
     let start = quadratic_precision_of(&points, mesh.points(), field);
     let mut equations = NormalEquations::default();
     let beyond = order.map(|corner| faces.beyond(mesh, tetrahedron, corner));
-    for (opposite, side) in beyond.iter().enumerate() {
-        if let Some(side) = side {
-            let far = FarPoint::new(mesh, field, side.point(mesh));
-            far.add_to(&mut equations, &frame, &start, Some(opposite));
-        }
-    }
+    let points = beyond.map(|side| side.map(|side| side.point(mesh)));
+    let far = FarPoints::new(mesh, field, &frame, points.iter().copied());
+    far.add_to(&mut equations, &frame, &start, &EACH_BEYOND_ONE);
     if beyond.contains(&None) {
-        for point in further_points(mesh, faces, &beyond) {
-            FarPoint::new(mesh, field, point).add_to(&mut equations, &frame, &start, None);
+        for points in further_points(mesh, faces, &beyond).chunks(4) {
+            let far = FarPoints::new(mesh, field, &frame, points.iter().copied().map(Some));
+            far.add_to(&mut equations, &frame, &start, &[[1.0; 4]; 4]);
         }
     }
     let sorted = equations.solve();
@@ -192,96 +185,135 @@ fn further_points(
     points
 }
 
-/// A point beyond a face, with its data.
-struct FarPoint {
-    position: Vector,
-    value: f64,
-    gradient: Vector,
+/// Four points beyond faces of a tetrahedron, with their data: computers do four things in little
+/// more time than one.
+#[derive(Clone, Copy, Debug, Default)]
+struct FarPoints {
+    /// Their barycentric coordinates, each of the four points; zero where there is no point, so that
+    /// no equation has a factor then.
+    at: [[f64; 4]; 4],
+    position: [[f64; 4]; 3],
+    value: [f64; 4],
+    gradient: [[f64; 4]; 3],
 }
 
-impl FarPoint {
-    fn new(mesh: &TetrahedronMesh, field: &Field, point: u32) -> Self {
-        let point = point as usize;
-        let (value, gradient) = (field.values[point], field.gradients[point]);
-        Self { position: mesh.points()[point], value, gradient }
+/// For each corner, the points to whose equation at it we listen: all but that beyond its opposite
+/// face, if each is beyond one.
+const EACH_BEYOND_ONE: [[f64; 4]; 4] =
+    [[0.0, 1.0, 1.0, 1.0], [1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 1.0, 1.0, 0.0]];
+
+impl FarPoints {
+    /// Up to four; those without finite data are left out.
+    fn new(
+        mesh: &TetrahedronMesh,
+        field: &Field,
+        frame: &TetrahedronFrame,
+        points: impl Iterator<Item = Option<u32>>,
+    ) -> Self {
+        let mut far = Self::default();
+        for (n, point) in points.enumerate() {
+            let Some(point) = point else { continue };
+            let position = &mesh.points()[point as usize];
+            let (value, gradient) =
+                (field.values[point as usize], &field.gradients[point as usize]);
+            let at = frame.barycentric(position);
+            let numbers = at.iter().chain(gradient).chain([&value]);
+            if !numbers.fold(0.0, |sum, number| sum + 0.0 * number).is_finite() {
+                continue;
+            }
+            far.value[n] = value;
+            (0..4).for_each(|corner| far.at[corner][n] = at[corner]);
+            for axis in 0..3 {
+                far.position[axis][n] = position[axis];
+                far.gradient[axis][n] = gradient[axis];
+            }
+        }
+        far
     }
 
-    /// Adds the equations by which the cubic `start` continues to this point: for all
-    /// corners but the one opposite the face between, if only one is.
+    /// Adds the equations by which the cubic `start` continues to these points: at each corner those
+    /// of the points that have a one there.
     fn add_to(
         &self,
         equations: &mut NormalEquations,
         frame: &TetrahedronFrame,
         start: &TetrahedronCubic,
-        opposite: Option<usize>,
+        of_corners: &[[f64; 4]; 4],
     ) {
-        let at = frame.barycentric(&self.position);
-        if !self.is_finite() || at.iter().any(|weight| !weight.is_finite()) {
-            return;
-        }
+        let at = self.at.map(f64x4::from);
+        let value = f64x4::from(self.value);
+        let position = self.position.map(f64x4::from);
+        let third = self.gradient.map(|slopes| f64x4::from(slopes) * (1.0 / 3.0));
         let continued = start.blossoms(&at);
-        let third = self.gradient / 3.0;
-        let distance = 1.0 + at.iter().map(|weight| weight.abs()).sum::<f64>();
-        let weight = distance.powi(-2 * ORDER);
+        let distance = at.iter().fold(f64x4::ONE, |sum, weight| sum + weight.abs());
+        // With the fourth power it would be as good; with the sixth it bears badly wrong gradients
+        // better.
+        let cube = distance * distance * distance;
+        let weight = f64x4::ONE / (cube * cube);
+        let [a, b, c, d] = at;
+        let [ab, ac, ad, bc, bd, cd] = [a * b, a * c, a * d, b * c, b * d, c * d].map(|p| p + p);
+        // the factors of the coefficients amid the other faces, by their opposite corners, in the
+        // blossom at a corner and twice a place
+        let factors = [[cd, bd, bc], [cd, ad, ac], [bd, ad, ab], [bc, ac, ab]];
         for (end, corner) in frame.corners().iter().enumerate() {
-            if Some(end) != opposite {
-                let known = self.value + third.dot(&(corner - self.position));
-                equations.add(weight, &factors(&at, end), known - continued[end]);
-            }
+            let along = |axis: usize| third[axis] * (f64x4::from(corner[axis]) - position[axis]);
+            let known = value + (along(0) + along(1) + along(2));
+            let listening = weight * f64x4::from(of_corners[end]);
+            equations.add(listening, OTHERS[end], factors[end], known - continued[end]);
         }
-        let continued_value: f64 = at.iter().zip(continued).map(|(at, end)| at * end).sum();
+        let continued_value =
+            (a * continued[0] + b * continued[1]) + (c * continued[2] + d * continued[3]);
         // the sum of the corners' factors, weighed likewise
-        let of_value = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
-            .map(|[i, j, k]: [usize; 3]| 6.0 * at[i] * at[j] * at[k]);
-        equations.add(VALUE * weight, &of_value, self.value - continued_value);
-    }
-
-    fn is_finite(&self) -> bool {
-        self.value.is_finite() && self.gradient.iter().all(|slope| slope.is_finite())
+        let of_value = [bc * d, ac * d, ab * d, ab * c].map(|product| product * 3.0);
+        equations.add(weight * VALUE, [0, 1, 2, 3], of_value, value - continued_value);
     }
 }
 
-/// The factors of the coefficients amid the faces, by their opposite corners, in the
-/// blossom at a corner and twice a place.
-fn factors(at: &Barycentric4, corner: usize) -> [f64; 4] {
-    let [a, b, c, d] = *at;
-    match corner {
-        0 => [0.0, 2.0 * c * d, 2.0 * b * d, 2.0 * b * c],
-        1 => [2.0 * c * d, 0.0, 2.0 * a * d, 2.0 * a * c],
-        2 => [2.0 * b * d, 2.0 * a * d, 0.0, 2.0 * a * b],
-        _ => [2.0 * b * c, 2.0 * a * c, 2.0 * a * b, 0.0],
-    }
-}
+/// The corners besides each.
+const OTHERS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
-/// Linear equations for four numbers, gathered for their least-squares solution.
+/// Linear equations for four numbers, gathered for their least-squares solution: four sums of each
+/// kind, which add up to those of all.
 #[derive(Clone, Copy, Debug, Default)]
 struct NormalEquations {
     /// Rows; nothing above the diagonal.
-    matrix: [[f64; 4]; 4],
-    right: [f64; 4],
+    matrix: [[f64x4; 4]; 4],
+    right: [f64x4; 4],
 }
 
 impl NormalEquations {
-    /// Adds an equation.
-    fn add(&mut self, weight: f64, factors: &[f64; 4], right: f64) {
-        for (i, row) in self.matrix.iter_mut().enumerate() {
+    /// Adds four equations for some of the numbers, ascending.
+    #[inline]
+    fn add<const COUNT: usize>(
+        &mut self,
+        weight: f64x4,
+        numbers: [usize; COUNT],
+        factors: [f64x4; COUNT],
+        right: f64x4,
+    ) {
+        for (i, &row) in numbers.iter().enumerate() {
             let weighed = weight * factors[i];
-            for (entry, factor) in row[..=i].iter_mut().zip(factors) {
-                *entry += weighed * factor;
+            for (j, &column) in numbers[..=i].iter().enumerate() {
+                self.matrix[row][column] += weighed * factors[j];
             }
-            self.right[i] += weighed * right;
+            self.right[row] += weighed * right;
         }
     }
 
     /// The solution; a face that no equation knows stays where it is.
-    fn solve(mut self) -> Estimate {
-        let known = [0, 1, 2, 3].map(|n| self.matrix[n][n] > 0.0);
+    fn solve(self) -> Estimate {
+        let sum = |parts: f64x4| {
+            let [a, b, c, d] = parts.to_array();
+            (a + b) + (c + d)
+        };
+        let (mut matrix, right) = (self.matrix.map(|row| row.map(sum)), self.right.map(sum));
+        let known = [0, 1, 2, 3].map(|n| matrix[n][n] > 0.0);
         for (n, &known) in known.iter().enumerate() {
-            let entry = &mut self.matrix[n][n];
+            let entry = &mut matrix[n][n];
             *entry = if known { *entry * (1.0 + ROUNDING) } else { 1.0 };
         }
-        let Some(inverse) = Inverse::new(&self.matrix) else { return Estimate::default() };
-        let corrections = inverse.times(&self.right);
+        let Some(inverse) = Inverse::new(&matrix) else { return Estimate::default() };
+        let corrections = inverse.times(&right);
         let variances = inverse.diagonal();
         let weights = [0, 1, 2, 3].map(|n| if known[n] { 1.0 / variances[n] } else { 0.0 });
         let finite = corrections.iter().chain(&weights).all(|x| x.is_finite());

@@ -75,21 +75,13 @@ impl<'a> Tricubic<'a> {
     ///
     /// It takes time and memory for them and their neighbours alone.
     pub fn in_some(mesh: &'a TetrahedronMesh<'a>, field: Field<'a>, tetrahedra: &Subset) -> Self {
-        // Three rings of neighbours are among those that touch them: each ring has one point less, at
-        // least, at theirs than the one before.
-        let nearby = tetrahedra.with_sharing(mesh, 1);
-        let part = mesh.part(&nearby);
-        let places = tetrahedra.simplices().filter_map(|tetrahedron| nearby.place(tetrahedron));
-        let wanted = Subset::of_numbers(nearby.len(), places);
-        let speaking = wanted.with_neighbours(&part);
-        let around = speaking.with_neighbours(&part);
-        if around.len() > mesh.tetrahedra().len() / 2 {
-            return Self::new(mesh, field);
+        match completed_in_some(mesh, &field, tetrahedra) {
+            Some(completed) => {
+                let coefficients = PerCell::Some(tetrahedra.clone(), completed);
+                Self::without_pde(mesh, field, coefficients)
+            }
+            None => Self::new(mesh, field),
         }
-        let around = Surroundings::new(&part, around);
-        let far = Surroundings::of_outermost(&part, &speaking, &around);
-        let coefficients = completed_in(&field, &wanted, &around, &far);
-        Self::without_pde(mesh, field, PerCell::Some(tetrahedra.clone(), coefficients))
     }
 
     fn without_pde(
@@ -164,8 +156,30 @@ fn completed(mesh: &TetrahedronMesh, field: &Field, faces: &Faces) -> Vec<[f64; 
     corrected(start.collect(), faces, &corrections)
 }
 
-/// The same for some tetrahedra only. They and their neighbours have a say in their faces, and listen
-/// to their neighbours, which are `around` them; some listen farther.
+/// The same for some tetrahedra only; nothing if most of the mesh has a say in them.
+fn completed_in_some(
+    mesh: &TetrahedronMesh,
+    field: &Field,
+    tetrahedra: &Subset,
+) -> Option<Vec<[f64; 4]>> {
+    // Three rings of neighbours are among those that touch them: each ring has one point less, at
+    // least, at theirs than the one before.
+    let nearby = tetrahedra.with_sharing(mesh, 1);
+    let part = mesh.part(&nearby);
+    let places = tetrahedra.simplices().filter_map(|tetrahedron| nearby.place(tetrahedron));
+    let wanted = Subset::of_numbers(nearby.len(), places);
+    let speaking = wanted.with_neighbours(&part);
+    let around = speaking.with_neighbours(&part);
+    if around.len() > mesh.tetrahedra().len() / 2 {
+        return None;
+    }
+    let around = Surroundings::new(&part, around);
+    let far = Surroundings::of_outermost(&part, &speaking, &around);
+    Some(completed_in(field, &wanted, &around, &far))
+}
+
+/// The same for some of those `around` them. These and their neighbours have a say in their faces, and
+/// listen to their neighbours; some listen farther.
 fn completed_in(
     field: &Field,
     tetrahedra: &Subset,

@@ -32,14 +32,14 @@ pub(crate) fn collected<T>(items: impl ExactSizeIterator<Item = T>) -> Vec<T> {
 fn in_large_pages<T>(vector: Vec<T>) -> Vec<T> {
     /// What is smaller has none.
     const LARGE_PAGE: usize = 2 << 20;
-    /// Advice is for whole pages; where the smallest are larger it is not taken.
+    /// Advice begins with a page; where the smallest are larger it may not be taken.
     const SMALL_PAGE: usize = 4 << 10;
     let bytes = vector.capacity() * size_of::<T>();
     if bytes >= LARGE_PAGE {
         let before = vector.as_ptr() as usize % SMALL_PAGE;
         let start = vector.as_ptr().cast::<u8>().wrapping_sub(before);
         // SAFETY: this advice changes neither what the pages hold nor whether they can be used. So it
-        // may reach to the beginning of the first page, which is not the vector's alone.
+        // may reach over all of the first and the last page, which are not the vector's alone.
         let taken = unsafe { libc::madvise(start as *mut _, bytes + before, libc::MADV_HUGEPAGE) };
         // without them it is slower, and nothing else
         let _ = taken;

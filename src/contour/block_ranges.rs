@@ -128,10 +128,21 @@ impl BlockRanges {
         (low <= high).then_some([low, high])
     }
 
-    /// What holds the ranges of all cells that are not left out, if there are any.
-    pub fn of_all(&self) -> Option<[f64; 2]> {
-        let ranges = self.blocks.iter().map(|block| block.range).filter(|range| *range != EMPTY);
-        ranges.map(|range| range.map(f64::from)).reduce(joined)
+    /// What holds the ranges of all cells that are not left out, if there are any, by the `bounds` of
+    /// those in blocks that may go beyond the values at vertices: close, however wide the ranges of
+    /// blocks are.
+    pub fn of_all(&self, bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync) -> Option<[f64; 2]> {
+        let at_vertices = self.at_vertices()?;
+        let beyond = |number: &usize| {
+            let [low, high] = self.blocks[*number].range.map(f64::from);
+            low < at_vertices[0] || high > at_vertices[1]
+        };
+        let blocks = (0..self.blocks.len()).into_par_iter().filter(beyond);
+        let ranges = blocks.map(|number| {
+            let all = self.kept_of_block(number).filter_map(&bounds);
+            all.fold(at_vertices, joined)
+        });
+        Some(ranges.reduce(|| at_vertices, joined))
     }
 
     /// How many cells have a value or a gradient that is not finite.
@@ -177,15 +188,20 @@ impl BlockRanges {
         bounds: impl Fn(usize) -> Option<[f64; 2]>,
         is_wanted: impl Fn([f64; 2]) -> bool,
     ) -> u16 {
-        let Block { range, left_out } = self.blocks[number];
+        let range = self.blocks[number].range;
         if range == EMPTY || !is_wanted(range.map(f64::from)) {
             return 0;
         }
-        let first = number * BLOCK;
-        let cells = 0..BLOCK.min(self.cells - first);
-        let kept = cells.filter(|cell| left_out >> cell & 1 == 0);
-        let wanted = kept.filter(|cell| bounds(first + cell).is_some_and(&is_wanted));
-        wanted.fold(0, |bits, cell| bits | 1 << cell)
+        let wanted =
+            self.kept_of_block(number).filter(|&cell| bounds(cell).is_some_and(&is_wanted));
+        wanted.fold(0, |bits, cell| bits | 1 << (cell % BLOCK))
+    }
+
+    /// The cells of a block that are not left out.
+    fn kept_of_block(&self, number: usize) -> impl Iterator<Item = usize> {
+        let (first, left_out) = (number * BLOCK, self.blocks[number].left_out);
+        let cells = first..self.cells.min(first + BLOCK);
+        cells.filter(move |cell| left_out >> (cell - first) & 1 == 0)
     }
 }
 
@@ -205,7 +221,11 @@ mod tests {
         let vertices = [[0.0, 1.0], [0.0, 0.1], [0.2, 0.3], [0.1, 0.1]];
         let ranges = BlockRanges::new(4, |_| None, bounds, |cell| vertices[cell], |_| false);
         assert_eq!(ranges.at_vertices(), Some([0.0, 1.0]));
-        assert_eq!(ranges.of_all(), Some([-0.5, 1.5]));
+        assert_eq!(ranges.of_all(bounds), Some([-0.5, 1.5]));
+        // however wide the bounds of blocks are
+        let wide = |_| Some(JointBounds { bounds: [-9.0, 9.0], at_vertices: [0.0, 1.0] });
+        let ranges = BlockRanges::new(4, wide, bounds, |cell| vertices[cell], |_| false);
+        assert_eq!(ranges.of_all(bounds), Some([-0.5, 1.5]));
         let beyond = ranges.cells_with(bounds, |[low, high]| low < 0.0 || high > 1.0);
         assert_eq!(numbers(&beyond), [1, 2]);
     }
@@ -220,7 +240,7 @@ mod tests {
         assert_eq!([0, 1, 2, 3].map(|cell| ranges.leaves_out(cell)), [true, true, false, true]);
         assert_eq!(numbers(&ranges.cells_with(bounds, |_| true)), [2]);
         let none = BlockRanges::new(2, |_| None, |_| None, |_| [0.0], |_| false);
-        assert_eq!((none.at_vertices(), none.of_all()), (None, None));
+        assert_eq!((none.at_vertices(), none.of_all(|_| None)), (None, None));
     }
 
     /// So that there are blocks of which all are usable, and others.

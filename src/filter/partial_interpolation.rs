@@ -107,7 +107,8 @@ where
             |cell| mesh.simplices()[cell].map(|point| field.values[point as usize]),
             |cell| domain.is_ghost(cell),
         );
-        let (at_vertices, of_all) = (ranges.at_vertices()?, ranges.of_all()?);
+        let at_vertices = ranges.at_vertices()?;
+        let of_all = ranges.of_all(|cell| Coefficients::reach(mesh, &field, cell))?;
         Some(Self { mesh, field, ranges, at_vertices, of_all, coefficients: PhantomData })
     }
 

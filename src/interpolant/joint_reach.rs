@@ -80,7 +80,8 @@ impl<const CORNERS: usize> JointReach<CORNERS> {
         self.vertices
     }
 
-    /// Between which numbers the cubics of all cells are.
+    /// Between which numbers the cubics of all cells are; beyond by some units, where these are smaller
+    /// than normal numbers.
     pub fn range(&self) -> [f64; 2] {
         let [low, high] = self.vertices;
         // by how much a coefficient beside a vertex differs from it

@@ -162,8 +162,8 @@ fn completed_in_some(
     field: &Field,
     tetrahedra: &Subset,
 ) -> Option<Vec<[f64; 4]>> {
-    // Three rings of neighbours are among those that touch them: each ring has one point less, at
-    // least, at theirs than the one before.
+    // Three rings of neighbours are among those that touch them: of four corners the first ring has
+    // at least three at their points, and each ring at most one fewer than the one before.
     let nearby = tetrahedra.with_sharing(mesh, 1);
     let part = mesh.part(&nearby);
     let places = tetrahedra.simplices().filter_map(|tetrahedron| nearby.place(tetrahedron));

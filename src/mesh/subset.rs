@@ -115,7 +115,6 @@ impl Subset {
         for point in self.simplices().flat_map(|simplex| simplices[simplex]) {
             near[point as usize / WORD] |= 1 << (point as usize % WORD);
         }
-        // most are known to share too few before all corners are looked at
         let is_near = |point: u32| near[point as usize / WORD] >> (point as usize % WORD) & 1;
         Self::new(simplices.len(), |simplex| {
             simplices[simplex].map(is_near).into_iter().sum::<u64>() >= corners as u64

@@ -115,6 +115,7 @@ fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pie
     if count == 0
         || count != grid.cells.len()
         || !are_fours
+        || grid.polyhedra.is_some()
         || !types.par_iter().all(|&cell_type| cell_type == 10)
     {
         return None;
@@ -168,6 +169,7 @@ pub fn vectors(array: &DataArray) -> Option<Vec<Vector>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vtk::{CellArray, Polyhedra};
 
     /// Tetrahedra between the first points of a cube, and perhaps another cell.
     fn grid(cells: &[[i64; 4]], other: Option<(u8, &[i64])>) -> UnstructuredGrid {
@@ -201,6 +203,16 @@ mod tests {
             let refused = SplitGrid::new(&grid).unwrap_err().to_string();
             assert!(refused.contains(&wrong.to_string()), "{refused}");
         }
+    }
+
+    #[test]
+    fn faces_without_their_points_are_refused_beside_tetrahedra_alone() {
+        let mut grid = grid(&[[0, 1, 2, 4]], None);
+        let mut faces = CellArray::new();
+        faces.push(&[0, 1, 99]);
+        let cells = CellArray::from_parts(vec![0, 0], Vec::new()).unwrap();
+        grid.polyhedra = Some(Polyhedra { faces, cells });
+        assert!(SplitGrid::new(&grid).unwrap_err().to_string().contains("99"));
     }
 
     #[test]

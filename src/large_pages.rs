@@ -34,8 +34,11 @@ fn in_large_pages<T>(vector: Vec<T>) -> Vec<T> {
     const LARGE_PAGE: usize = 2 << 20;
     /// Advice begins with a page; where the smallest are larger it may not be taken.
     const SMALL_PAGE: usize = 4 << 10;
+    /// Hosts of virtual machines may take back large pages that are free, and giving them anew can
+    /// take longer than is won: with hundreds of MiB it did, on and off, by half of all time.
+    const MOST: usize = 64 << 20;
     let bytes = vector.capacity() * size_of::<T>();
-    if bytes >= LARGE_PAGE {
+    if (LARGE_PAGE..=MOST).contains(&bytes) {
         let before = vector.as_ptr() as usize % SMALL_PAGE;
         let start = vector.as_ptr().cast::<u8>().wrapping_sub(before);
         // SAFETY: this advice changes neither what the pages hold nor whether they can be used. So it

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::ranges::{EMPTY, rounded_outwards};
 use crate::bernstein::joined;
+use crate::interpolant::JointReach;
 use crate::interruption::checkpoint;
 use crate::mesh::Subset;
 
@@ -34,15 +35,6 @@ struct Block {
     range: [f32; 2],
     /// One bit a cell: whether it is left out.
     left_out: u16,
-}
-
-/// What bounds some cells, all of them usable, together.
-#[derive(Clone, Copy, Debug)]
-pub struct JointBounds {
-    /// What holds the bounds of each.
-    pub bounds: [f64; 2],
-    /// The least and the greatest value at their vertices.
-    pub at_vertices: [f64; 2],
 }
 
 /// What is known of some cells together.
@@ -75,7 +67,7 @@ impl BlockRanges {
     /// in less time; nothing if not all may be usable.
     pub fn new<const CORNERS: usize>(
         cells: usize,
-        joint: impl Fn(Range<usize>) -> Option<JointBounds> + Sync,
+        joint: impl Fn(Range<usize>) -> Option<JointReach> + Sync,
         bounds: impl Fn(usize) -> Option<[f64; 2]> + Sync,
         vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
         is_excluded: impl Fn(usize) -> bool + Sync,
@@ -89,7 +81,7 @@ impl BlockRanges {
             let of_block = first..cells.min(first + BLOCK);
             let are_all_in = !of_block.clone().any(&is_excluded);
             if let Some(all) = are_all_in.then(|| joint(of_block.clone())).flatten() {
-                block.range = rounded_outwards(all.bounds);
+                block.range = rounded_outwards(all.range);
                 summary.at_vertices = all.at_vertices;
                 return summary;
             }
@@ -223,7 +215,7 @@ mod tests {
         assert_eq!(ranges.at_vertices(), Some([0.0, 1.0]));
         assert_eq!(ranges.of_all(bounds), Some([-0.5, 1.5]));
         // however wide the bounds of blocks are
-        let wide = |_| Some(JointBounds { bounds: [-9.0, 9.0], at_vertices: [0.0, 1.0] });
+        let wide = |_| Some(JointReach { range: [-9.0, 9.0], at_vertices: [0.0, 1.0] });
         let ranges = BlockRanges::new(4, wide, bounds, |cell| vertices[cell], |_| false);
         assert_eq!(ranges.of_all(bounds), Some([-0.5, 1.5]));
         let beyond = ranges.cells_with(bounds, |[low, high]| low < 0.0 || high > 1.0);
@@ -260,9 +252,9 @@ mod tests {
                 is_usable.then_some([low, low + width])
             };
             let wider = |cells: Range<usize>| {
-                let bounds = cells.map(exact).reduce(|one, other| Some(joined(one?, other?)))?;
-                let bounds = bounds.map(|[low, high]| [low - 0.5, high + 0.25])?;
-                Some(JointBounds { bounds, at_vertices: [0.0; 2] })
+                let range = cells.map(exact).reduce(|one, other| Some(joined(one?, other?)))?;
+                let range = range.map(|[low, high]| [low - 0.5, high + 0.25])?;
+                Some(JointReach { range, at_vertices: [0.0; 2] })
             };
             let is_excluded = |cell: usize| !is_in[cell];
             let ranges = BlockRanges::new(all.len(), wider, exact, |_| [0.0], is_excluded);

@@ -20,7 +20,7 @@ mod ranges;
 mod rounding;
 pub mod surface;
 
-pub use block_ranges::{BlockRanges, JointBounds};
+pub use block_ranges::BlockRanges;
 pub use extreme::{Extreme, recursive_extreme};
 pub use extreme_in_tetrahedron::recursive_extreme_in_tetrahedron;
 pub use levels::{LevelError, Levels};

@@ -11,7 +11,7 @@ use super::interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangle
 use super::options::{ContourOptions, InterpolantKind};
 use super::solution::{Domain, Solution};
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
-use crate::contour::{BlockRanges, CellCubic, CellRanges, JointBounds, Levels, holds_any};
+use crate::contour::{BlockRanges, CellCubic, CellRanges, Levels, holds_any};
 use crate::field::Field;
 use crate::interpolant::{JointReach, Pci, Tricubic, reach_in_tetrahedron, reach_on_triangle};
 use crate::mesh::{SimplexMesh, Subset, TetrahedronMesh, TriangleMesh};
@@ -99,10 +99,7 @@ where
         let (mesh, field) = (&domain.mesh, solution.field(domain));
         let ranges = BlockRanges::new(
             domain.count(),
-            |cells| {
-                let reach = JointReach::new(mesh, &field, cells)?;
-                Some(JointBounds { bounds: reach.range(), at_vertices: reach.at_vertices() })
-            },
+            |cells| JointReach::new(mesh, &field, cells),
             |cell| Coefficients::reach(mesh, &field, cell),
             |cell| mesh.simplices()[cell].map(|point| field.values[point as usize]),
             |cell| domain.is_ghost(cell),

@@ -259,7 +259,8 @@ impl FarPoints {
             let along = |axis: usize| third[axis] * (f64x4::from(corner[axis]) - position[axis]);
             let known = value + (along(0) + along(1) + along(2));
             let listening = weight * f64x4::from(of_corners[end]);
-            equations.add(listening, OTHERS[end], factors[end], known - continued[end]);
+            let others = TetrahedronCubic::FACE_VERTICES[end];
+            equations.add(listening, others, factors[end], known - continued[end]);
         }
         let continued_value =
             (a * continued[0] + b * continued[1]) + (c * continued[2] + d * continued[3]);
@@ -268,9 +269,6 @@ impl FarPoints {
         equations.add(weight * VALUE, [0, 1, 2, 3], of_value, value - continued_value);
     }
 }
-
-/// The corners besides each.
-const OTHERS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
 /// Linear equations for four numbers, gathered for their least-squares solution: four sums of each
 /// kind, which add up to those of all.

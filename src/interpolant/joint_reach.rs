@@ -15,7 +15,44 @@ use crate::mesh::SimplexMesh;
 
 /// What bounds the cubics of some triangles or tetrahedra together.
 #[derive(Clone, Copy, Debug)]
-pub struct JointReach<const CORNERS: usize> {
+pub struct JointReach {
+    /// Between which numbers the cubics of all are; beyond by some units, where these are smaller than
+    /// normal numbers.
+    pub range: [f64; 2],
+    /// The least and the greatest value at a vertex.
+    pub at_vertices: [f64; 2],
+}
+
+/// Numbers below this stay finite in all that is computed of them.
+const LARGE: f64 = 1e300;
+
+/// What is computed of values and differences, in another order, differs by less than this part of
+/// the greatest.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+impl JointReach {
+    /// That of the given cells; nothing if the cubic of any of them may not be finite.
+    pub fn new<const CORNERS: usize>(
+        mesh: &SimplexMesh<CORNERS>,
+        field: &Field,
+        cells: Range<usize>,
+    ) -> Option<Self> {
+        let mut greatest = Greatest::none();
+        for corners in &mesh.simplices()[cells] {
+            greatest.include(mesh, field, corners.map(|point| point as usize));
+        }
+        let range = greatest.range(match CORNERS {
+            3 => TriangleCubic::SHARE_OF_CENTRE,
+            _ => TetrahedronCubic::SHARE_OF_FACES,
+        });
+        let is_finite = greatest.sum.iter().all(|sum| sum.is_finite());
+        (is_finite && range[0] > -LARGE && range[1] < LARGE)
+            .then_some(Self { range, at_vertices: greatest.vertices })
+    }
+}
+
+/// What is greatest in some cells.
+struct Greatest {
     /// The least and the greatest value at a vertex.
     vertices: [f64; 2],
     /// The most that the values at the vertices of one cell differ by.
@@ -28,33 +65,24 @@ pub struct JointReach<const CORNERS: usize> {
     sum: [f64; 3],
 }
 
-/// Numbers below this stay finite in all that is computed of them.
-const LARGE: f64 = 1e300;
-
-/// What is computed of values and differences, in another order, differs by less than this part of
-/// the greatest.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-impl<const CORNERS: usize> JointReach<CORNERS> {
-    /// That of the given cells; nothing if the cubic of any of them may not be finite.
-    pub fn new(mesh: &SimplexMesh<CORNERS>, field: &Field, cells: Range<usize>) -> Option<Self> {
-        let mut reach = Self {
+impl Greatest {
+    fn none() -> Self {
+        Self {
             vertices: [f64::INFINITY, f64::NEG_INFINITY],
             difference: 0.0,
             extents: [0.0; 3],
             gradients: [0.0; 3],
             sum: [0.0; 3],
-        };
-        for corners in &mesh.simplices()[cells] {
-            reach.include(mesh, field, corners.map(|point| point as usize));
         }
-        let [low, high] = reach.range();
-        let is_finite = reach.sum.iter().all(|sum| sum.is_finite());
-        (is_finite && low > -LARGE && high < LARGE).then_some(reach)
     }
 
     #[inline]
-    fn include(&mut self, mesh: &SimplexMesh<CORNERS>, field: &Field, corners: [usize; CORNERS]) {
+    fn include<const CORNERS: usize>(
+        &mut self,
+        mesh: &SimplexMesh<CORNERS>,
+        field: &Field,
+        corners: [usize; CORNERS],
+    ) {
         let [mut least, mut greatest] = [field.values[corners[0]]; 2];
         let [mut lower, mut upper] = [mesh.points()[corners[0]]; 2];
         for point in corners {
@@ -75,24 +103,15 @@ impl<const CORNERS: usize> JointReach<CORNERS> {
         }
     }
 
-    /// The least and the greatest value at a vertex.
-    pub fn at_vertices(&self) -> [f64; 2] {
-        self.vertices
-    }
-
-    /// Between which numbers the cubics of all cells are; beyond by some units, where these are smaller
-    /// than normal numbers.
-    pub fn range(&self) -> [f64; 2] {
+    /// Between which numbers the cubics are, where coefficients amid triangles count for no more than
+    /// a `share`.
+    fn range(&self, share: f64) -> [f64; 2] {
         let [low, high] = self.vertices;
         // by how much a coefficient beside a vertex differs from it
         let step = (0..3).map(|axis| self.gradients[axis] * self.extents[axis]).sum::<f64>() / 3.0;
         // The coefficient amid a triangle is the mean of its vertices and a quarter of six steps, and
         // neighbours move it by no more than the others differ by.
         let amid = 1.5 * step + (self.difference + 2.0 * step);
-        let share = match CORNERS {
-            3 => TriangleCubic::SHARE_OF_CENTRE,
-            _ => TetrahedronCubic::SHARE_OF_FACES,
-        };
         let [low, high] = value_bounds([low - step, high + step], [low - amid, high + amid], share);
         let rounding = ROUNDING * low.abs().max(high.abs());
         [low - rounding, high + rounding]
@@ -114,7 +133,7 @@ mod tests {
         simplices: Vec<[u32; CORNERS]>,
         values: [f64; 5],
         gradient: Vector,
-    ) -> Option<JointReach<CORNERS>> {
+    ) -> Option<JointReach> {
         let units = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z(), -Vector::x()];
         let mesh = SimplexMesh::new(units.to_vec(), simplices).unwrap();
         let field = Field { values: &values, gradients: &[gradient; 5] };
@@ -131,13 +150,13 @@ mod tests {
         let gradient = Vector::new(3.0, -6.0, 1.5);
         // a step is 3; values of one triangle differ by 4; amid it are 4 + 3.5 times 3 beyond
         let plane = reach(vec![[0, 1, 2], [0, 2, 4]], values, gradient).unwrap();
-        assert_eq!(plane.at_vertices(), [1.0, 5.0]);
+        assert_eq!(plane.at_vertices, [1.0, 5.0]);
         let beyond = 3.0 + 0.2223 * (4.0 + 2.5 * 3.0);
-        assert!(is_near(plane.range(), [1.0 - beyond, 5.0 + beyond]), "{plane:?}");
+        assert!(is_near(plane.range, [1.0 - beyond, 5.0 + beyond]), "{plane:?}");
         // a step is 3.5; values of one tetrahedron differ by 5
         let solid = reach(vec![[0, 1, 2, 3], [0, 2, 4, 3]], values, gradient).unwrap();
         let beyond = 3.5 + 0.375 * (5.0 + 2.5 * 3.5);
-        assert!(is_near(solid.range(), [-beyond, 5.0 + beyond]), "{solid:?}");
+        assert!(is_near(solid.range, [-beyond, 5.0 + beyond]), "{solid:?}");
     }
 
     #[test]

@@ -191,14 +191,15 @@ def test_types(dtype, real):
 
 def test_one_contour_takes_a_third_of_the_arrays_besides_them():
     script = ROOT / "benches" / "memory_of_module.py"
-    # each thread more may keep two megabytes that are free, now and then
-    one_thread = {**os.environ, "RAYON_NUM_THREADS": "1"}
+    # Each array has pages of its own, so that none lies in pages that others have left free, by
+    # chance; each thread more may keep two megabytes that are free, now and then.
+    steady = {**os.environ, "RAYON_NUM_THREADS": "1", "MALLOC_MMAP_THRESHOLD_": "16384"}
     run = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, check=True, env=one_thread
+        [sys.executable, script], capture_output=True, text=True, check=True, env=steady
     )
     found = re.search(r"contoured once.* ([\d.]+) of it", run.stdout)
     # a copy of the values and gradients alone would be 0.23 more, one of the cells 0.6
-    assert 1.0 < float(found[1]) <= 1.3, run.stdout
+    assert 1.0 < float(found[1]) <= 1.33, run.stdout
 
 
 def test_other_orders_in_memory_are_copied():

@@ -238,7 +238,7 @@ impl CellRanges {
 
     /// The least and the greatest value at the vertices of usable cells; `vertices` are those of a
     /// cell. Nothing without usable cells.
-    fn at_vertices<const CORNERS: usize>(
+    pub fn at_vertices<const CORNERS: usize>(
         &self,
         vertices: impl Fn(usize) -> [f64; CORNERS] + Sync,
     ) -> Option<[f64; 2]> {

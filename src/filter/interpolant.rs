@@ -106,7 +106,7 @@ impl<'a> Interpolant<'a> {
             ghosts: interpolation.ghosts(),
             singular: interpolation.singular(),
             pde_fit: interpolation.triangles.as_ref().and_then(|found| found.pde_fit),
-            range: interpolation.range,
+            range: interpolation.at_vertices,
             levels: contours.levels.clone(),
             counts: contours.lines.as_ref().map_or_else(Default::default, |lines| lines.counts),
             surface_counts: contours.surface.as_ref().map_or_else(Default::default, |s| s.counts),

@@ -23,7 +23,10 @@ pub struct Interpolation {
     pub triangles: Option<Interpolated<OnTriangles>>,
     /// In the solids, if there are any with finite values.
     pub tetrahedra: Option<Interpolated<OnTetrahedra>>,
-    /// The least and the greatest value of the cubics.
+    /// The least and the greatest value at vertices of cells.
+    pub at_vertices: [f64; 2],
+    /// The least and the greatest value of the cubics. Where these are known in cells that hold given
+    /// levels only, of the vertices.
     pub range: [f64; 2],
     /// The length of the diagonal of the solution's [`Extent`].
     pub diagonal: f64,
@@ -38,7 +41,10 @@ pub struct Interpolated<Coefficients> {
     pub coefficients: Coefficients,
     /// Their range on each cell, without those of other processes.
     pub ranges: CellRanges,
-    /// The least and the greatest value that they attain.
+    /// The least and the greatest value at their vertices.
+    pub at_vertices: [f64; 2],
+    /// The least and the greatest value that they attain, or of the vertices as for
+    /// [`Interpolation::range`].
     pub range: [f64; 2],
     /// Cells in which the PDE could not be used.
     pub singular: usize,
@@ -121,8 +127,11 @@ impl Interpolation {
             false => FilterError::NoValues { name: solution.label.clone() },
         };
         let range = joined(ranges).ok_or_else(no_values)?;
-        let warnings = warnings(solution, ranges);
-        Ok(Self { triangles, tetrahedra, range, diagonal, warnings })
+        let values =
+            [triangles.as_ref().map(|i| i.at_vertices), tetrahedra.as_ref().map(|i| i.at_vertices)];
+        let at_vertices = joined(values).ok_or_else(no_values)?;
+        let warnings = warnings(solution, values, ranges);
+        Ok(Self { triangles, tetrahedra, at_vertices, range, diagonal, warnings })
     }
 
     /// How many triangles and tetrahedra are those of another process.
@@ -172,9 +181,10 @@ fn in_triangles(
     let cubics = coefficients.cubics(mesh, field);
     let mut ranges = CellRanges::new(cubics.as_ref());
     let ghosts = domain.exclude_ghosts(&mut ranges);
-    let range = ranges.attained(cubics.as_ref())?;
+    let at_vertices = ranges.at_vertices(|cell| cubics.vertices(cell))?;
+    let range = ranges.attained_beyond(at_vertices, |cell| cubics.cubic(cell));
     drop(cubics);
-    Some(Interpolated { coefficients, ranges, range, singular, pde_fit, ghosts })
+    Some(Interpolated { coefficients, ranges, at_vertices, range, singular, pde_fit, ghosts })
 }
 
 fn in_tetrahedra(
@@ -202,20 +212,25 @@ fn in_tetrahedra(
     let cubics = coefficients.cubics(mesh, field);
     let mut ranges = CellRanges::of_tetrahedra(cubics.as_ref());
     let ghosts = domain.exclude_ghosts(&mut ranges);
-    let range = ranges.attained_in_tetrahedra(cubics.as_ref())?;
+    let at_vertices = ranges.at_vertices(|cell| cubics.vertices(cell))?;
+    let range = ranges.attained_beyond(at_vertices, |cell| cubics.cubic(cell));
     drop(cubics);
-    Some(Interpolated { coefficients, ranges, range, singular, pde_fit: None, ghosts })
+    Some(Interpolated { coefficients, ranges, at_vertices, range, singular, pde_fit: None, ghosts })
 }
 
-/// What people should know about the solution, a line each; `ranges` are those of the cubics
-/// on triangles and in tetrahedra.
-fn warnings(solution: &Solution, [flat, solid]: [Option<[f64; 2]>; 2]) -> Vec<String> {
+/// What people should know about the solution, a line each; `values` and `ranges` are those of the
+/// vertices and the cubics on triangles and in tetrahedra.
+fn warnings(
+    solution: &Solution,
+    values: [Option<[f64; 2]>; 2],
+    ranges: [Option<[f64; 2]>; 2],
+) -> Vec<String> {
     let mut warnings = solution.pde_warnings().to_vec();
     if let Some(domain) = &solution.triangles {
-        warnings.extend(of_domain(solution, domain, flat));
+        warnings.extend(of_domain(solution, domain, values[0].zip(ranges[0])));
     }
     if let Some(domain) = &solution.tetrahedra {
-        warnings.extend(of_domain(solution, domain, solid));
+        warnings.extend(of_domain(solution, domain, values[1].zip(ranges[1])));
     }
     warnings.dedup();
     warnings
@@ -225,11 +240,11 @@ fn warnings(solution: &Solution, [flat, solid]: [Option<[f64; 2]>; 2]) -> Vec<St
 fn of_domain<const CORNERS: usize>(
     solution: &Solution,
     domain: &Domain<CORNERS>,
-    range: Option<[f64; 2]>,
+    known: Option<([f64; 2], [f64; 2])>,
 ) -> impl Iterator<Item = String> {
     let gradients = &domain.gradients;
-    let values = solution.used_values(domain);
-    let too_far =
-        range.and_then(|range| range_warning(&solution.label, &gradients.origin, values, range));
+    let too_far = known.and_then(|(values, range)| {
+        range_warning(&solution.label, &gradients.origin, values, range)
+    });
     [coincidence_warning(&domain.mesh), gradients.warning.clone(), too_far].into_iter().flatten()
 }

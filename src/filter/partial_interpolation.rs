@@ -7,8 +7,10 @@
 use std::marker::PhantomData;
 
 use super::error::FilterError;
+use super::gradients::GradientOrigin;
 use super::interpolation::{Interpolated, Interpolation, OnTetrahedra, OnTriangles, joined};
 use super::options::{ContourOptions, InterpolantKind};
+use super::range_warning::goes_far_beyond;
 use super::solution::{Domain, Solution};
 use crate::bernstein::{TetrahedronCubic, TriangleCubic};
 use crate::contour::{BlockRanges, CellCubic, CellRanges, Levels, holds_any};
@@ -39,7 +41,7 @@ impl Interpolation {
         options: &ContourOptions,
         diagonal: f64,
     ) -> Result<Self, FilterError> {
-        Self::for_levels(solution, options, &Levels::Explicit(Vec::new()), diagonal)
+        Self::for_levels(solution, options, &Levels::Equal { count: 0, range: None }, diagonal)
     }
 
     fn for_levels(
@@ -55,26 +57,18 @@ impl Interpolation {
         let flat = flat.and_then(|domain| Bounded::<OnTriangles, 3>::new(solution, domain));
         let solid = solution.tetrahedra.as_ref();
         let solid = solid.and_then(|domain| Bounded::<OnTetrahedra, 4>::new(solution, domain));
-        let at = |levels: &[f64]| {
-            let triangles = flat.as_ref().map(|bounded| bounded.at(levels));
-            (triangles, solid.as_ref().map(|bounded| bounded.at(levels)))
+        let known = levels.known()?;
+        let flat = flat.map(|bounded| (bounded.range(known.is_some()), bounded));
+        let solid = solid.map(|bounded| (bounded.range(known.is_some()), bounded));
+        let ranges =
+            [flat.as_ref().map(|(range, _)| *range), solid.as_ref().map(|(range, _)| *range)];
+        let levels = match (known, joined(ranges)) {
+            (Some(levels), _) => levels,
+            (None, Some(range)) => levels.resolve(range)?,
+            (None, None) => Vec::new(),
         };
-        let (triangles, tetrahedra) = match levels.known()? {
-            Some(levels) => at(&levels),
-            None => {
-                let (flat, solid) = at(&[]);
-                let range =
-                    joined([flat.as_ref().map(|i| i.range), solid.as_ref().map(|i| i.range)]);
-                let levels = range.map_or(Ok(Vec::new()), |range| levels.resolve(range))?;
-                if levels.is_empty() {
-                    (flat, solid)
-                } else {
-                    // not both at a time
-                    drop((flat, solid));
-                    at(&levels)
-                }
-            }
-        };
+        let triangles = flat.map(|(range, bounded)| bounded.at(&levels, range));
+        let tetrahedra = solid.map(|(range, bounded)| bounded.at(&levels, range));
         Self::of_domains(solution, triangles, tetrahedra, diagonal)
     }
 }
@@ -83,6 +77,7 @@ impl Interpolation {
 struct Bounded<'a, Coefficients, const CORNERS: usize> {
     mesh: &'a SimplexMesh<'a, CORNERS>,
     field: Field<'a>,
+    gradients: &'a GradientOrigin,
     ranges: BlockRanges,
     at_vertices: [f64; 2],
     /// What holds the ranges of all its cells.
@@ -106,25 +101,45 @@ where
         );
         let at_vertices = ranges.at_vertices()?;
         let of_all = ranges.of_all(|cell| Coefficients::reach(mesh, &field, cell))?;
-        Some(Self { mesh, field, ranges, at_vertices, of_all, coefficients: PhantomData })
+        let (gradients, coefficients) = (&domain.gradients.origin, PhantomData);
+        Some(Self { mesh, field, gradients, ranges, at_vertices, of_all, coefficients })
     }
 
-    /// The cubics in the cells that may hold one of the levels, which ascend, or a value that is
-    /// beyond those at the vertices.
-    fn at(&self, levels: &[f64]) -> Interpolated<Coefficients> {
-        let &Self { mesh, field, ref ranges, at_vertices, of_all, .. } = self;
-        let [low, high] = at_vertices;
-        let reach = |cell| Coefficients::reach(mesh, &field, cell);
-        let is_wanted =
-            |range: [f64; 2]| range[0] < low || range[1] > high || holds_any(range, levels, of_all);
-        let cells = ranges.cells_with(reach, is_wanted);
+    /// The least and the greatest value of the cubics. If the levels are known, of the vertices, unless
+    /// there might be a warning: where a solution is zero on walls and positive elsewhere, many cells
+    /// go below by their bounds, and to find out that no cubic does takes longer than one level.
+    fn range(&self, levels_are_known: bool) -> [f64; 2] {
+        if levels_are_known && !goes_far_beyond(self.gradients, self.at_vertices, self.of_all) {
+            return self.at_vertices;
+        }
+        let [low, high] = self.at_vertices;
+        let (coefficients, ranges) = self.in_some(|range| range[0] < low || range[1] > high);
+        ranges.attained_beyond(self.at_vertices, coefficients.cubic(self.mesh, self.field))
+    }
+
+    /// The cubics in the cells that may hold one of the levels, which ascend. `range` is known already.
+    fn at(&self, levels: &[f64], range: [f64; 2]) -> Interpolated<Coefficients> {
+        let &Self { at_vertices, of_all, .. } = self;
+        let (coefficients, ranges) = self.in_some(|range| holds_any(range, levels, of_all));
+        let ghosts = self.ranges.excluded();
+        Interpolated {
+            coefficients,
+            ranges,
+            at_vertices,
+            range,
+            singular: 0,
+            pde_fit: None,
+            ghosts,
+        }
+    }
+
+    /// The cubics in the cells whose bounds are wanted, and their ranges.
+    fn in_some(&self, is_wanted: impl Fn([f64; 2]) -> bool + Sync) -> (Coefficients, CellRanges) {
+        let &Self { mesh, field, ref ranges, .. } = self;
+        let cells = ranges.cells_with(|cell| Coefficients::reach(mesh, &field, cell), is_wanted);
         let coefficients = Coefficients::in_some(mesh, field, &cells);
-        let ghosts = ranges.excluded();
-        let cubic = coefficients.cubic(mesh, field);
-        let ranges = CellRanges::of_some(&cells, ranges, &cubic);
-        let range = ranges.attained_beyond(at_vertices, &cubic);
-        drop(cubic);
-        Interpolated { coefficients, ranges, range, singular: 0, pde_fit: None, ghosts }
+        let ranges = CellRanges::of_some(&cells, ranges, coefficients.cubic(mesh, field));
+        (coefficients, ranges)
     }
 }
 
@@ -186,5 +201,73 @@ impl InSome<4> for OnTetrahedra {
     ) -> impl Fn(usize) -> TetrahedronCubic + Sync {
         let cubics = self.cubics(mesh, field);
         move |cell| cubics.cubic(cell)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::extent::Extent;
+    use super::super::gradients::GradientSource;
+    use super::*;
+    use crate::vtk::{DataArray, UnstructuredGrid};
+
+    /// A bump on the unit square, zero on its sides, with its gradient and with noise.
+    fn bump() -> UnstructuredGrid {
+        // odd, so that no point is on top
+        let n = 11_i64;
+        let at = |k: i64| (k as f64 / n as f64, (1.0 - k as f64 / n as f64));
+        let numbers = || (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j)));
+        let points = numbers().flat_map(|(i, j)| [at(i).0, at(j).0, 0.0]);
+        let mut grid =
+            UnstructuredGrid::new(DataArray::new("Points", 3, points.collect::<Vec<_>>()));
+        for (i, j) in numbers().filter(|&(i, j)| i < n && j < n) {
+            let first = j * (n + 1) + i;
+            grid.push_cell(5, &[first, first + 1, first + n + 2]);
+            grid.push_cell(5, &[first, first + n + 2, first + n + 1]);
+        }
+        let values = numbers().map(|(i, j)| at(i).0 * at(i).1 * at(j).0 * at(j).1);
+        let slopes = numbers().flat_map(|(i, j)| {
+            let ((x, left), (y, below)) = (at(i), at(j));
+            [(left - x) * y * below, x * left * (below - y), 0.0]
+        });
+        let noise = numbers().map(|(i, j)| f64::from(i32::from((i + j) % 5 < 2)));
+        grid.point_data.push(DataArray::new("u", 1, values.collect::<Vec<_>>()));
+        grid.point_data.push(DataArray::new("noise", 1, noise.collect::<Vec<_>>()));
+        grid.point_data.push(DataArray::new("slopes", 3, slopes.collect::<Vec<_>>()));
+        grid
+    }
+
+    /// How many cells are known of which, and the ranges of values and cubics.
+    fn known(array: &str, gradient: GradientSource, levels: Levels) -> (usize, [f64; 2], [f64; 2]) {
+        let array = Some(array.to_owned());
+        let options = ContourOptions { levels, array, gradient, ..ContourOptions::default() };
+        let grid = bump();
+        let solution = Solution::of_grid(&grid, &options).unwrap();
+        let diagonal = Extent::of_solution(&solution).diagonal();
+        let found = Interpolation::at_levels(&solution, &options, diagonal).unwrap();
+        let cells = found.triangles.unwrap().ranges.cells_near(0.0, |_| f64::INFINITY);
+        (cells.len(), found.at_vertices, found.range)
+    }
+
+    #[test]
+    fn cells_at_walls_are_asked_for_only_where_the_range_is_wanted() {
+        let given = || GradientSource::Array("slopes".to_owned());
+        let top = || Levels::Explicit(vec![0.06]);
+        for gradient in [given(), GradientSource::Recovered] {
+            let (cells, values, range) = known("u", gradient, top());
+            assert!((4..60).contains(&cells), "{cells}");
+            assert_eq!((values[0], range), (0.0, values));
+        }
+        let (cells, values, range) = known("u", given(), Levels::Equal { count: 9, range: None });
+        assert!(cells > 60, "{cells}");
+        assert!(values[1] < 0.0616 && range[1] > 0.062, "{values:?} {range:?}");
+    }
+
+    #[test]
+    fn cubics_that_go_far_beyond_are_found_out() {
+        let (_, values, range) =
+            known("noise", GradientSource::Recovered, Levels::Explicit(vec![0.4]));
+        assert_eq!(values, [0.0, 1.0]);
+        assert!((values[0] - range[0]).max(range[1] - values[1]) > 0.2, "{range:?}");
     }
 }

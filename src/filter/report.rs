@@ -31,7 +31,7 @@ pub struct Report {
     /// How well the PDE fits the values and gradients in the triangles; nothing without a
     /// PDE.
     pub pde_fit: Option<PdeFit>,
-    /// The least and the greatest value of the interpolant.
+    /// The least and the greatest value at the points of the cells; the cubics may go a little beyond.
     pub range: [f64; 2],
     /// The levels, ascending.
     pub levels: Vec<f64>,

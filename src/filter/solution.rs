@@ -127,16 +127,6 @@ impl Solution<'_> {
         Field { values: &self.values, gradients: &domain.gradients.vectors }
     }
 
-    /// The values at the corners of the cells that are contoured.
-    pub fn used_values<'b, const CORNERS: usize>(
-        &'b self,
-        domain: &'b Domain<CORNERS>,
-    ) -> impl Iterator<Item = f64> + 'b {
-        let cells = domain.mesh.simplices().iter().enumerate();
-        let used = cells.filter(|(simplex, _)| !domain.is_ghost(*simplex));
-        used.flat_map(|(_, corners)| corners.map(|point| self.values[point as usize]))
-    }
-
     /// Whether all cells belong to other processes.
     pub fn has_only_ghosts(&self) -> bool {
         self.triangles.as_ref().is_none_or(Domain::has_only_ghosts)

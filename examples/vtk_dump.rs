@@ -101,7 +101,7 @@ fn poly_data(data: &PolyData, warnings: &[String]) -> Value {
 }
 
 fn lists(lists: &CellArray) -> Value {
-    json!({ "offsets": lists.offsets(), "connectivity": lists.connectivity() })
+    json!({ "offsets": Vec::from_iter(lists.offsets()), "connectivity": lists.connectivity() })
 }
 
 fn attributes(attributes: &Attributes) -> Value {

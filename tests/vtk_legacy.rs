@@ -23,7 +23,8 @@ fn grid(bytes: Vec<u8>) -> UnstructuredGrid {
 fn every_keyword_of_an_ascii_file() {
     let grid = grid(legacy::old_grid());
     assert_eq!(grid.points.values, vec![0f32, 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.].into());
-    assert_eq!((grid.cells.offsets(), &grid.types[..]), (&[0i64, 4, 7][..], &[10u8, 5][..]));
+    assert!(grid.cells.offsets().eq([0, 4, 7]));
+    assert_eq!(grid.types, [10, 5]);
     let point = |name: &str| grid.point_data.get(name).unwrap();
     assert_eq!(format!("{:?}", point("s 1").values), "F64([0.001, NaN, -inf, 4.0])");
     assert_eq!(point("v").component_names, ["x", "", "z z"]);
@@ -67,7 +68,7 @@ fn nothing_is_lost_in_silence() {
 #[test]
 fn version_five_has_offsets() {
     let grid = grid(legacy::new_grid());
-    assert_eq!(grid.cells.offsets(), [0, 4, 7]);
+    assert!(grid.cells.offsets().eq([0, 4, 7]));
     assert_eq!(grid.cells.connectivity(), [0, 1, 2, 3, 0, 1, 2]);
     assert_eq!(grid.point_data.get("u").unwrap().values, vec![1u64, 2, 3, u64::MAX].into());
     assert_eq!(grid.point_data.get("c").unwrap().values, vec![1i8, -2, 3, -4, 5, -6, 7, -8].into());
@@ -104,7 +105,7 @@ fn polyhedra_are_taken_out_of_their_lists() {
     let grid = grid(legacy::polyhedron());
     assert_eq!(grid.cells.connectivity(), [1, 2, 3, 4, 3, 2, 1, 0]);
     let polyhedra = grid.polyhedra.unwrap();
-    assert_eq!(polyhedra.cells.offsets(), [0, 4, 4]);
+    assert!(polyhedra.cells.offsets().eq([0, 4, 4]));
     assert_eq!(polyhedra.faces.get(0), Some(&[4i64, 2, 1][..]));
     let text = String::from_utf8(legacy::polyhedron()).unwrap();
     for bad in ["4 9 4 2 1", "4 3 5 2 1", "4 3 4 2 -1"] {

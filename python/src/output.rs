@@ -53,7 +53,7 @@ fn put_data(
 type Cells<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
 
 fn cells<'py>(py: Python<'py>, cells: &CellArray) -> Cells<'py> {
-    let offsets = PyArray1::from_slice(py, cells.offsets());
+    let offsets = PyArray1::from_iter(py, cells.offsets());
     (offsets, PyArray1::from_slice(py, cells.connectivity()))
 }
 

@@ -32,7 +32,7 @@ impl SurfaceOutput<'_> {
         let gradients = output.options.need_gradients().then(|| self.gradients());
         let with_data = output.options.data;
         output.points.reserve(self.surface.points.len(), with_data);
-        output.polys.reserve(self.surface.triangles.len(), 3 * self.surface.triangles.len());
+        output.polys.reserve(3 * self.surface.triangles.len());
         output.parents.reserve(self.surface.triangles.len());
         for (&level, points) in self.surface.levels.iter().zip(&self.surface.level_points) {
             for number in points.clone() {

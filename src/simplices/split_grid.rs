@@ -110,13 +110,11 @@ impl SplitGrid {
 /// is not there: what [`Splitter`] makes of them, all at once, for most large grids are such ones.
 fn tetrahedra_alone(grid: &UnstructuredGrid, positions: &[Vector]) -> Option<Pieces<4>> {
     let count = grid.types.len();
-    let (offsets, types) = (grid.cells.offsets(), &grid.types);
-    let are_fours = offsets.par_iter().enumerate().all(|(n, &offset)| offset == 4 * n as i64);
     if count == 0
         || count != grid.cells.len()
-        || !are_fours
+        || grid.cells.size_of_all() != Some(4)
         || grid.polyhedra.is_some()
-        || !types.par_iter().all(|&cell_type| cell_type == 10)
+        || !grid.types.par_iter().all(|&cell_type| cell_type == 10)
     {
         return None;
     }

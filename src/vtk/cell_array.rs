@@ -1,22 +1,23 @@
 //! Cells as lists of indices, one after the other.
 
 use super::error::ArrayError;
+use super::offsets::Offsets;
 
 /// Lists of indices, stored one after the other: the points of cells, the points of
 /// faces, or the faces of polyhedra.
 ///
 /// List `i` is `connectivity[offsets[i]..offsets[i + 1]]`. The offsets begin with 0,
 /// never fall, and end at the length of the connectivity: every value of this type keeps
-/// to that.
+/// to that. Those of lists of one size take no memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellArray {
-    offsets: Vec<i64>,
+    offsets: Offsets,
     connectivity: Vec<i64>,
 }
 
 impl Default for CellArray {
     fn default() -> Self {
-        Self { offsets: vec![0], connectivity: Vec::new() }
+        Self { offsets: Offsets::none(), connectivity: Vec::new() }
     }
 }
 
@@ -32,30 +33,27 @@ impl CellArray {
     /// The offsets do not begin with 0, fall, or do not end at the length of the
     /// connectivity.
     pub fn from_parts(offsets: Vec<i64>, connectivity: Vec<i64>) -> Result<Self, ArrayError> {
-        if offsets.first() != Some(&0) {
-            return Err(ArrayError::FirstOffset);
-        }
-        check_rising(&offsets)?;
-        let last = offsets.last().copied().unwrap_or(0);
-        if usize::try_from(last) != Ok(connectivity.len()) {
-            return Err(ArrayError::Count {
-                found: connectivity.len(),
-                expected: usize::try_from(last).unwrap_or(usize::MAX),
-            });
-        }
-        Ok(Self { offsets, connectivity })
+        Self::from_offsets(Offsets::from_vec(offsets)?, connectivity)
     }
 
-    /// Takes offsets that are known to begin with 0, to rise, and to end at the length of
-    /// the connectivity.
-    pub(super) fn from_checked(offsets: Vec<i64>, connectivity: Vec<i64>) -> Self {
-        debug_assert_eq!(offsets.last(), Some(&(connectivity.len() as i64)));
-        Self { offsets, connectivity }
+    /// Takes ready offsets and connectivity.
+    ///
+    /// # Errors
+    /// The offsets do not end at the length of the connectivity.
+    pub(super) fn from_offsets(
+        offsets: Offsets,
+        connectivity: Vec<i64>,
+    ) -> Result<Self, ArrayError> {
+        let (found, expected) = (connectivity.len(), offsets.end());
+        match found == expected {
+            true => Ok(Self { offsets, connectivity }),
+            false => Err(ArrayError::Count { found, expected }),
+        }
     }
 
     /// The number of lists.
     pub fn len(&self) -> usize {
-        self.offsets.len().saturating_sub(1)
+        self.offsets.lists()
     }
 
     /// Whether there are no lists.
@@ -65,16 +63,12 @@ impl CellArray {
 
     /// List `index`.
     pub fn get(&self, index: usize) -> Option<&[i64]> {
-        let start = usize::try_from(*self.offsets.get(index)?).ok()?;
-        let end = usize::try_from(*self.offsets.get(index.checked_add(1)?)?).ok()?;
-        self.connectivity.get(start..end)
+        self.connectivity.get(self.offsets.range(index)?)
     }
 
     /// List `index`, to be changed in place.
     pub(super) fn get_mut(&mut self, index: usize) -> Option<&mut [i64]> {
-        let start = usize::try_from(*self.offsets.get(index)?).ok()?;
-        let end = usize::try_from(*self.offsets.get(index.checked_add(1)?)?).ok()?;
-        self.connectivity.get_mut(start..end)
+        self.connectivity.get_mut(self.offsets.range(index)?)
     }
 
     /// The lists in order.
@@ -85,34 +79,36 @@ impl CellArray {
     /// Appends a list.
     pub fn push(&mut self, list: &[i64]) {
         self.connectivity.extend_from_slice(list);
-        // A vector never holds more than i64::MAX values.
-        self.offsets.push(self.connectivity.len() as i64);
+        self.offsets.push(list.len());
     }
 
     /// Appends the list of the numbers in `range`.
     pub(super) fn push_range(&mut self, range: std::ops::Range<usize>) {
+        self.offsets.push(range.len());
         // Numbers of things in memory fit.
         self.connectivity.extend(range.start as i64..range.end as i64);
-        self.offsets.push(self.connectivity.len() as i64);
     }
 
-    /// Makes room for exactly that many more lists and values.
-    pub fn reserve(&mut self, lists: usize, values: usize) {
-        self.offsets.reserve_exact(lists);
+    /// Makes room for exactly that many more values.
+    pub fn reserve(&mut self, values: usize) {
         self.connectivity.reserve_exact(values);
     }
 
     /// Appends the lists of another, their values moved by `shift`.
     pub(super) fn append_moved(&mut self, other: &Self, shift: usize) {
-        let end = self.connectivity.len() as i64;
-        self.reserve(other.len(), other.connectivity.len());
+        self.reserve(other.connectivity.len());
         self.connectivity.extend(other.connectivity.iter().map(|value| value + shift as i64));
-        self.offsets.extend(other.offsets.iter().skip(1).map(|offset| offset + end));
+        self.offsets.append(&other.offsets);
     }
 
     /// Where each list begins, and the end of the last: one more than there are lists.
-    pub fn offsets(&self) -> &[i64] {
-        &self.offsets
+    pub fn offsets(&self) -> impl ExactSizeIterator<Item = i64> + '_ {
+        self.offsets.iter()
+    }
+
+    /// The size of all lists, if they have the same; 0 if there are none.
+    pub fn size_of_all(&self) -> Option<usize> {
+        self.offsets.size_of_all()
     }
 
     /// The lists' indices, one list after the other.
@@ -133,7 +129,7 @@ impl CellArray {
         match first_outside(&self.connectivity, count) {
             None => Ok(()),
             Some(at) => Err(ArrayError::IndexOutOfRange {
-                cell: self.offsets.partition_point(|o| *o <= at as i64) - 1,
+                cell: self.offsets.list_of(at),
                 index: self.connectivity.get(at).copied().unwrap_or(0),
                 count,
             }),

@@ -1,8 +1,9 @@
 //! Cells of all pieces, joined: offsets first, then the connectivity they measure.
 
 use super::array_head::ArrayHead;
-use super::cell_array::{CellArray, check_rising, first_outside};
+use super::cell_array::{CellArray, first_outside};
 use super::error::{ArrayError, VtkError};
+use super::offsets::Offsets;
 use super::payload::Payload;
 use super::scalar::Scalar;
 use super::values::match_type;
@@ -79,6 +80,15 @@ impl<'a> Integers<'a> {
         self.count
     }
 
+    /// The first number, if it is the difference of each number and the one before, too: so the ends
+    /// of lists of one size are seen without being kept. Nothing where that cannot be seen in the file
+    /// as it is.
+    fn common_difference(&self) -> Option<usize> {
+        let bytes = self.payload.as_it_is()?;
+        let (kind, _) = self.head.shape.clone().ok()?;
+        match_type!(kind, T => common_difference::<T>(bytes), other => None)
+    }
+
     /// Decodes into `dest`; numbers of that type are decoded in place.
     pub(super) fn decode<D>(&self, dest: &mut [D]) -> Result<(), ArrayError>
     where
@@ -92,6 +102,22 @@ impl<'a> Integers<'a> {
             Err(ArrayError::UnknownType(kind.name().to_owned()))
         })
     }
+}
+
+/// The first of some numbers, if it is the difference of each and the one before, too.
+fn common_difference<T: Scalar>(bytes: &[u8]) -> Option<usize> {
+    let number = |bytes: &[u8]| bytemuck::pod_read_unaligned::<T>(bytes).to_i64();
+    let numbers = bytes.chunks_exact(size_of::<T>());
+    let first = usize::try_from(number(numbers.clone().next()?)?).ok()?;
+    // so that the others do not overflow
+    i64::try_from(first.checked_mul(numbers.len())?).ok()?;
+    let mut expected = 0;
+    // without a branch for each
+    let are_all = numbers.fold(true, |all, bytes| {
+        expected += first as i64;
+        all & (number(bytes) == Some(expected))
+    });
+    are_all.then_some(first)
 }
 
 fn convert<T: Scalar, D: TryFrom<i64>>(source: &[T], dest: &mut [D]) -> Result<(), ArrayError> {
@@ -115,8 +141,7 @@ pub(super) fn read_lists(
         let open = open_values(source, names.connectivity, *total, budget);
         parts.push(open.map_err(|e| source.error(names.connectivity, e))?);
     }
-    let total = offsets.last().copied().unwrap_or(0);
-    let mut connectivity = large_pages::zeros(usize::try_from(total).unwrap_or(0));
+    let mut connectivity = large_pages::zeros(offsets.end());
     let mut rest = &mut connectivity[..];
     let mut shift = 0;
     for ((source, part), total) in sources.iter().zip(parts).zip(totals) {
@@ -127,15 +152,15 @@ pub(super) fn read_lists(
         rest = after;
         shift += source.bound;
     }
-    Ok(CellArray::from_checked(offsets, connectivity))
+    Ok(CellArray::from_offsets(offsets, connectivity).expect("as many values as offsets say"))
 }
 
-/// The offsets of all pieces with the leading 0, and the connectivity's length in each.
+/// The offsets of all pieces, and the connectivity's length in each.
 fn read_offsets(
     names: ListNames,
     sources: &[ListSource<'_>],
     budget: &mut Budget,
-) -> Result<(Vec<i64>, Vec<usize>), VtkError> {
+) -> Result<(Offsets, Vec<usize>), VtkError> {
     let name = names.offsets;
     let mut parts = Vec::with_capacity(sources.len());
     for source in sources {
@@ -145,41 +170,36 @@ fn read_offsets(
         };
         parts.push(open.map_err(|e| source.error(name, e))?);
     }
-    let counts: Vec<usize> = parts.iter().map(|p| p.as_ref().map_or(0, Integers::count)).collect();
-    let lists = counts.iter().fold(1usize, |sum, count| sum.saturating_add(*count));
-    let mut offsets = large_pages::zeros(lists);
+    let mut all = Offsets::none();
     let mut totals = Vec::with_capacity(sources.len());
-    let mut start = 0;
-    for ((source, part), count) in sources.iter().zip(parts).zip(counts) {
-        let dest = offsets.get_mut(start..=start + count).unwrap_or_default();
-        let total = match part {
-            Some(part) => decode_offsets(&part, dest),
-            None => Ok(0),
-        };
-        totals.push(total.map_err(|e| source.error(name, e))?);
+    for (source, part) in sources.iter().zip(parts) {
+        let of_piece = part.map_or(Ok(Offsets::none()), |part| decode_offsets(&part));
+        let of_piece = of_piece.map_err(|e| source.error(name, e))?;
+        let last = of_piece.end();
+        let end = all.end().checked_add(last).and_then(|end| i64::try_from(end).ok());
+        let too_large = || ArrayError::NoIndex { value: last.to_string() };
+        end.ok_or_else(|| source.error(name, too_large()))?;
+        totals.push(last);
+        match all.lists() {
+            0 => all = of_piece,
+            _ => all.append(&of_piece),
+        }
         source.file.release();
-        start += count;
     }
-    Ok((offsets, totals))
+    Ok((all, totals))
 }
 
-/// Decodes the ends of the lists behind `dest[0]`, the end of the piece before, and moves
-/// them by it. Returns the last end of this piece alone.
-fn decode_offsets(part: &Integers<'_>, dest: &mut [i64]) -> Result<usize, ArrayError> {
-    let Some((before, ends)) = dest.split_first_mut() else {
-        return Ok(0);
-    };
-    part.decode(ends)?;
-    if let Some(first) = ends.first().filter(|first| **first < 0) {
-        return Err(ArrayError::NoIndex { value: first.to_string() });
+/// The offsets of a piece, of which the array leaves out the leading 0.
+fn decode_offsets(part: &Integers<'_>) -> Result<Offsets, ArrayError> {
+    if let Some(size) = part.common_difference() {
+        return Ok(Offsets::regular(part.count(), size));
     }
-    check_rising(ends)?;
-    let last = ends.last().copied().unwrap_or(0);
-    let too_large = || ArrayError::NoIndex { value: last.to_string() };
-    before.checked_add(last).ok_or_else(too_large)?;
-    // The ends rise, so none overflows where the last does not.
-    ends.iter_mut().for_each(|end| *end += *before);
-    usize::try_from(last).map_err(|_| too_large())
+    let mut offsets = large_pages::zeros::<i64>(part.count() + 1);
+    part.decode(&mut offsets[1..])?;
+    match offsets.get(1).filter(|first| **first < 0) {
+        Some(first) => Err(ArrayError::NoIndex { value: first.to_string() }),
+        None => Offsets::from_vec(offsets),
+    }
 }
 
 /// Opens the values of lists; none are looked for where there are none.
@@ -226,6 +246,26 @@ mod tests {
     use crate::vtk::file_bytes::FileBytes;
     use std::path::Path;
 
+    #[test]
+    fn lists_of_one_size_are_seen_in_the_bytes_of_their_ends() {
+        fn found<T: Scalar>(ends: &[T]) -> Option<usize> {
+            // not aligned
+            let bytes = [&[0], bytemuck::cast_slice(ends)].concat();
+            common_difference::<T>(&bytes[1..])
+        }
+        assert_eq!(found(&[4_i64, 8, 12]), Some(4));
+        assert_eq!(found(&[7_u32]), Some(7));
+        assert_eq!(found(&[0_i64, 0]), Some(0));
+        assert_eq!(found(&[100_u8, 200]), Some(100));
+        assert_eq!(found::<i64>(&[]), None);
+        for others in
+            [[4, 8, 13], [4, 9, 12], [3, 8, 12], [-4, -8, -12], [0, 0, 1], [i64::MAX, -2, 1]]
+        {
+            assert_eq!(found(&others), None, "{others:?}");
+        }
+        assert_eq!(found(&[u64::MAX, u64::MAX - 1]), None);
+    }
+
     /// Reads lists of pieces, each given as (number of lists, bound, arrays).
     fn read(pieces: &[(Option<usize>, usize, &str)]) -> Result<CellArray, VtkError> {
         let sections: String = pieces.iter().map(|p| format!("<Cells>{}</Cells>", p.2)).collect();
@@ -260,7 +300,7 @@ mod tests {
             let two = arrays(kind, "1 0", "2");
             let pieces = [(Some(3), 3, &one[..]), (Some(0), 5, ""), (None, 2, &two)];
             let lists = read(&pieces).unwrap();
-            assert_eq!(lists.offsets(), [0, 3, 3, 4, 6], "{kind}");
+            assert!(lists.offsets().eq([0, 3, 3, 4, 6]), "{kind}");
             assert_eq!(lists.connectivity(), [0, 1, 2, 2, 9, 8], "{kind}");
         }
     }
@@ -280,6 +320,9 @@ mod tests {
         assert!(message("Float32", "0 1 2", "1 3").contains("an integer"));
         assert!(message("UInt64", "0 1 2", "1 18446744073709551615").contains("no index"));
         assert!(message("Int64", "0 1 2", "1 9223372036854775807").contains("3 values where"));
+        let endless = arrays("Int64", "0", "9223372036854775807");
+        let two = read(&[(Some(1), 3, &endless), (Some(1), 3, &endless)]).unwrap_err().to_string();
+        assert!(two.contains("9223372036854775807 is no index"), "{two}");
         let missing = read(&[(Some(1), 3, "")]).unwrap_err().to_string();
         assert!(missing.contains("'offsets' of Cells: it is missing"), "{missing}");
     }

@@ -56,6 +56,7 @@ mod legacy_reader;
 mod legacy_scanner;
 mod legacy_section;
 mod list_writer;
+mod offsets;
 mod old_hexahedra;
 mod parallel_file;
 mod payload;

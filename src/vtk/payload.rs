@@ -124,6 +124,18 @@ impl<'a> Payload<'a> {
         }
     }
 
+    /// The bytes of the values, if they stand in the file as they do in memory, aligned or not.
+    pub(super) fn as_it_is(&self) -> Option<&'a [u8]> {
+        match &self.form {
+            Form::Plain { coded, skip, bytes }
+                if coded.coding == Coding::Raw && !self.order.is_foreign() =>
+            {
+                coded.bytes.get(*skip..*skip + *bytes)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether the values are written as text.
     pub(super) fn is_ascii(&self) -> bool {
         matches!(self.form, Form::Ascii(_))

@@ -137,8 +137,7 @@ pub(super) fn by_kind(counts: impl Iterator<Item = [usize; 4]>) -> Vec<Range<usi
 /// Cells of several data sets, of which the numbers of points are given.
 fn joined_cells(parts: &[CellArray], points: &[usize]) -> CellArray {
     let mut all = CellArray::new();
-    let count = |of: fn(&CellArray) -> usize| parts.iter().map(of).sum();
-    all.reserve(count(CellArray::len), count(|part| part.connectivity().len()));
+    all.reserve(parts.iter().map(|part| part.connectivity().len()).sum());
     let mut first = 0;
     for (part, points) in parts.iter().zip(points) {
         all.append_moved(part, first);

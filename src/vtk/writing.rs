@@ -113,7 +113,7 @@ pub(super) fn write_lists<'a, W: Write>(
     xml: &mut XmlWriter<'a, W>,
     lists: &'a CellArray,
 ) -> io::Result<()> {
-    let ends = lists.offsets().get(1..).unwrap_or_default();
+    let ends: Vec<i64> = lists.offsets().skip(1).collect();
     xml.array(&ArrayTag::plain("connectivity"), Box::new(numbers(lists.connectivity())))?;
     xml.array(&ArrayTag::plain("offsets"), Box::new(numbers(ends)))
 }

@@ -174,8 +174,8 @@ fn completed_in_some(
         return None;
     }
     let around = Surroundings::new(&part, around);
-    let far = Surroundings::of_outermost(&part, &speaking, &around);
-    Some(completed_in(field, &wanted, &around, &far))
+    let outermost = Outermost::new(&part, &speaking, &around);
+    Some(completed_in(field, &wanted, &around, &outermost))
 }
 
 /// The same for some of those `around` them. These and their neighbours have a say in their faces, and
@@ -184,10 +184,10 @@ fn completed_in(
     field: &Field,
     tetrahedra: &Subset,
     around: &Surroundings,
-    far: &(Surroundings, FxHashMap<u32, u32>),
+    outermost: &Outermost,
 ) -> Vec<[f64; 4]> {
     let Surroundings { subset, part, faces } = around;
-    let (far, places) = far;
+    let Outermost { around: far, places } = outermost;
     let estimate = |place: usize| match places.get(&(place as u32)) {
         Some(&place) => estimate(&far.part, field, &far.faces, place as usize),
         None => estimate(part, field, faces, place),
@@ -218,14 +218,19 @@ impl<'a> Surroundings<'a> {
         let faces = Faces::new(&part);
         Self { subset, part, faces }
     }
+}
 
-    /// The surroundings of those that are `speaking` and listen farther than `around` them, and the
-    /// places of these there, by their places here. They are few: on the boundary.
-    fn of_outermost(
-        mesh: &'a TetrahedronMesh,
-        speaking: &Subset,
-        around: &Surroundings,
-    ) -> (Self, FxHashMap<u32, u32>) {
+/// Tetrahedra that listen farther than others do: those on the boundary, which are few.
+struct Outermost<'a> {
+    /// All that they listen to.
+    around: Surroundings<'a>,
+    /// Their places there, by those in the surroundings of the others.
+    places: FxHashMap<u32, u32>,
+}
+
+impl<'a> Outermost<'a> {
+    /// Those that are `speaking` and listen farther than `around` them.
+    fn new(mesh: &'a TetrahedronMesh, speaking: &Subset, around: &Surroundings) -> Self {
         let Surroundings { subset, part, faces } = around;
         let is_outermost = |(place, number): &(usize, usize)| {
             speaking.contains(*number) && asks_further(part, faces, *place)
@@ -233,11 +238,11 @@ impl<'a> Surroundings<'a> {
         let outermost: Vec<_> = subset.simplices().enumerate().filter(is_outermost).collect();
         let numbers = outermost.iter().map(|&(_, number)| number);
         let far = Subset::of_numbers(mesh.tetrahedra().len(), numbers);
-        let far = Self::new(mesh, far.with_neighbours(mesh).with_neighbours(mesh));
-        let there = |number| far.subset.place(number).unwrap_or_default() as u32;
-        let places = outermost.iter().map(|&(place, number)| (place as u32, there(number)));
-        let places = places.collect();
-        (far, places)
+        let far = Surroundings::new(mesh, far.with_neighbours(mesh).with_neighbours(mesh));
+        let places = outermost.iter().filter_map(|&(place, number)| {
+            far.subset.place(number).map(|there| (place as u32, there as u32))
+        });
+        Self { places: places.collect(), around: far }
     }
 }
 

@@ -160,12 +160,17 @@ fn joint_reaches_hold_all<const CORNERS: usize>(
 
 /// What is drawn and what is reported are those of the interpolant that is computed everywhere.
 fn check(grid: &UnstructuredGrid, levels: Levels) -> usize {
-    let options = ContourOptions {
-        levels,
-        array: Some("u".to_owned()),
-        gradient: GradientSource::Array("g".to_owned()),
-        ..ContourOptions::default()
-    };
+    check_with(grid, GradientSource::Array("g".to_owned()), levels).0
+}
+
+/// The same, with what people are told.
+fn check_with(
+    grid: &UnstructuredGrid,
+    gradient: GradientSource,
+    levels: Levels,
+) -> (usize, Vec<String>) {
+    let array = Some("u".to_owned());
+    let options = ContourOptions { levels, array, gradient, ..ContourOptions::default() };
     let whole = Interpolant::new(Solution::of_grid(grid, &options).unwrap(), &options).unwrap();
     let contours = whole.contours(&options).unwrap();
     let expected = whole.output(&contours, options.output(grid)).poly_data(grid);
@@ -176,7 +181,32 @@ fn check(grid: &UnstructuredGrid, levels: Levels) -> usize {
     assert_eq!(foretold.range, whole.interpolation.range);
     assert_eq!(foretold.unusable, whole.interpolation.unusable());
     assert_eq!(foretold.ghosts, whole.interpolation.ghosts());
-    expected.lines.len() + expected.polys.len()
+    (expected.lines.len() + expected.polys.len(), found.report.warnings)
+}
+
+/// Though the range of the cubics is not looked for where levels are given.
+#[test]
+fn cubics_of_recovered_gradients_that_go_far_beyond_are_told_at_given_levels() {
+    let (even, uneven) = (kuhn_grid(6), random_cube(&mut Random(3), 150));
+    let wave = |p: &Vector| ((3.0 * p.x + 2.0 * p.y).sin() + p.z * p.z, Vector::zeros());
+    let noise = |p: &Vector| ((1e4 * (p.x + 2.0 * p.y + 3.0 * p.z)).sin(), Vector::zeros());
+    for (grid, is_told) in
+        [(mixed_grid(&even, wave, |_| false), false), (mixed_grid(&uneven, noise, |_| false), true)]
+    {
+        for levels in [Levels::Explicit(vec![0.4]), Levels::Equal { count: 2, range: None }] {
+            let (drawn, told) = check_with(&grid, GradientSource::Recovered, levels);
+            let reach = told.iter().any(|text| text.starts_with("the cubics of 'u' reach from"));
+            assert!(drawn > 0 && reach == is_told, "{told:?}");
+        }
+    }
+}
+
+#[test]
+fn levels_that_are_attained_between_points_only_are_drawn() {
+    let hill = |p: &Vector| ((p.x - 0.2) * (0.8 - p.x), Vector::new(1.0 - 2.0 * p.x, 0.0, 0.0));
+    let grid = mixed_grid(&kuhn_grid(3), hill, |_| false);
+    // at most 0.062 at points, 0.09 between them
+    assert!(check(&grid, Levels::Explicit(vec![0.085])) > 0);
 }
 
 /// Levels of which each is in few cells, as [`Tricubic::in_some`] computes all if most are asked.

@@ -47,7 +47,7 @@ struct Counts {
     gradient: Option<String>,
     /// `array`, `cells`, `recovered` or `unused`.
     gradient_origin: &'static str,
-    /// Of the values at points.
+    /// Of the values at the points of cells that are contoured.
     range: [f64; 2],
     /// The greatest of all parts; null without a limit.
     tolerance: Option<f64>,

@@ -23,10 +23,10 @@ pub struct Interpolation {
     pub triangles: Option<Interpolated<OnTriangles>>,
     /// In the solids, if there are any with finite values.
     pub tetrahedra: Option<Interpolated<OnTetrahedra>>,
-    /// The least and the greatest value at vertices of cells.
+    /// The least and the greatest value at vertices of cells that are contoured.
     pub at_vertices: [f64; 2],
-    /// The least and the greatest value of the cubics. Where these are known in cells that hold given
-    /// levels only, of the vertices.
+    /// The least and the greatest value of the cubics. Of an interpolant for given levels it may be
+    /// that of the vertices: then nothing hangs on it.
     pub range: [f64; 2],
     /// The length of the diagonal of the solution's [`Extent`].
     pub diagonal: f64,
@@ -43,8 +43,8 @@ pub struct Interpolated<Coefficients> {
     pub ranges: CellRanges,
     /// The least and the greatest value at their vertices.
     pub at_vertices: [f64; 2],
-    /// The least and the greatest value that they attain, or of the vertices as for
-    /// [`Interpolation::range`].
+    /// The least and the greatest value that they attain, or at their vertices, as
+    /// [`Interpolation::range`] says.
     pub range: [f64; 2],
     /// Cells in which the PDE could not be used.
     pub singular: usize,

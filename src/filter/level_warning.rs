@@ -1,10 +1,11 @@
 //! Levels that have no contour.
 
-/// What people should know about levels, of all grids that were contoured at them: that
-/// the solution does not attain some, or is constant. The range is that of all grids.
+/// What people should know about levels, of all grids that were contoured at them: that some are
+/// outside the range of the values and have no contour, or that there are none. The range is that of
+/// the values of all grids.
 ///
-/// Levels that `is_drawn` says have a contour are not told: one beside a wall's value, by
-/// rounding, has the wall for its contour.
+/// Levels that `is_drawn` says have a contour are not told: the cubics go a little beyond the values,
+/// and a level beside a wall's value, by rounding, has the wall for its contour.
 pub fn level_warning(
     label: &str,
     [low, high]: [f64; 2],
@@ -13,7 +14,7 @@ pub fn level_warning(
 ) -> Option<String> {
     if levels.is_empty() {
         let constant =
-            format!("'{label}' is {low:?} everywhere: there is no level inside its range");
+            format!("'{label}' is {low:?} at all points: there is no level inside its range");
         return Some(if low < high { "no levels were given".to_owned() } else { constant });
     }
     let is_outside =
@@ -48,6 +49,6 @@ mod tests {
         let constant = level_warning("u", [3.0, 3.0], &[], |_| false).unwrap();
         assert_eq!(level_warning("u", [0.0, 1.0], &[], |_| false).unwrap(), "no levels were given");
         assert_eq!(level_warning("u", [0.0, 1.0], &[-1e-9], |_| true), None);
-        assert!(constant.starts_with("'u' is 3.0 everywhere"), "{constant}");
+        assert!(constant.starts_with("'u' is 3.0 at all points"), "{constant}");
     }
 }

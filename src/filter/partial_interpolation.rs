@@ -2,7 +2,7 @@
 //!
 //! The cubic of a cell is bounded by the cell's own data, before any neighbour is asked
 //! ([`crate::interpolant::reach_in_tetrahedron`]). So few cells can hold a level, and only those and
-//! their neighbours cost more than a glance. What comes of it is the same to the last bit.
+//! their neighbours cost more than a glance. What is drawn is the same to the last bit.
 
 use std::marker::PhantomData;
 
@@ -211,7 +211,7 @@ mod tests {
     use super::*;
     use crate::vtk::{DataArray, UnstructuredGrid};
 
-    /// A bump on the unit square, zero on its sides, with its gradient and with noise.
+    /// A bump on the unit square, zero on its sides, with its gradient.
     fn bump() -> UnstructuredGrid {
         // odd, so that no point is on top
         let n = 11_i64;
@@ -230,16 +230,14 @@ mod tests {
             let ((x, left), (y, below)) = (at(i), at(j));
             [(left - x) * y * below, x * left * (below - y), 0.0]
         });
-        let noise = numbers().map(|(i, j)| f64::from(i32::from((i + j) % 5 < 2)));
         grid.point_data.push(DataArray::new("u", 1, values.collect::<Vec<_>>()));
-        grid.point_data.push(DataArray::new("noise", 1, noise.collect::<Vec<_>>()));
         grid.point_data.push(DataArray::new("slopes", 3, slopes.collect::<Vec<_>>()));
         grid
     }
 
     /// How many cells are known of which, and the ranges of values and cubics.
-    fn known(array: &str, gradient: GradientSource, levels: Levels) -> (usize, [f64; 2], [f64; 2]) {
-        let array = Some(array.to_owned());
+    fn known(gradient: GradientSource, levels: Levels) -> (usize, [f64; 2], [f64; 2]) {
+        let array = Some("u".to_owned());
         let options = ContourOptions { levels, array, gradient, ..ContourOptions::default() };
         let grid = bump();
         let solution = Solution::of_grid(&grid, &options).unwrap();
@@ -254,20 +252,11 @@ mod tests {
         let given = || GradientSource::Array("slopes".to_owned());
         let top = || Levels::Explicit(vec![0.06]);
         for gradient in [given(), GradientSource::Recovered] {
-            let (cells, values, range) = known("u", gradient, top());
+            let (cells, values, range) = known(gradient, top());
             assert!((4..60).contains(&cells), "{cells}");
             assert_eq!((values[0], range), (0.0, values));
         }
-        let (cells, values, range) = known("u", given(), Levels::Equal { count: 9, range: None });
-        assert!(cells > 60, "{cells}");
+        let (_, values, range) = known(given(), Levels::Equal { count: 9, range: None });
         assert!(values[1] < 0.0616 && range[1] > 0.062, "{values:?} {range:?}");
-    }
-
-    #[test]
-    fn cubics_that_go_far_beyond_are_found_out() {
-        let (_, values, range) =
-            known("noise", GradientSource::Recovered, Levels::Explicit(vec![0.4]));
-        assert_eq!(values, [0.0, 1.0]);
-        assert!((values[0] - range[0]).max(range[1] - values[1]) > 0.2, "{range:?}");
     }
 }

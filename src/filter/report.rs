@@ -31,7 +31,8 @@ pub struct Report {
     /// How well the PDE fits the values and gradients in the triangles; nothing without a
     /// PDE.
     pub pde_fit: Option<PdeFit>,
-    /// The least and the greatest value at the points of the cells; the cubics may go a little beyond.
+    /// The least and the greatest value at the points of the cells that are contoured; the cubics may
+    /// go beyond.
     pub range: [f64; 2],
     /// The levels, ascending.
     pub levels: Vec<f64>,

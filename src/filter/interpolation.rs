@@ -130,7 +130,7 @@ impl Interpolation {
         let values =
             [triangles.as_ref().map(|i| i.at_vertices), tetrahedra.as_ref().map(|i| i.at_vertices)];
         let at_vertices = joined(values).ok_or_else(no_values)?;
-        let warnings = warnings(solution, values, ranges);
+        let warnings = warnings(solution, triangles.as_ref(), tetrahedra.as_ref());
         Ok(Self { triangles, tetrahedra, at_vertices, range, diagonal, warnings })
     }
 
@@ -218,33 +218,32 @@ fn in_tetrahedra(
     Some(Interpolated { coefficients, ranges, at_vertices, range, singular, pde_fit: None, ghosts })
 }
 
-/// What people should know about the solution, a line each; `values` and `ranges` are those of the
-/// vertices and the cubics on triangles and in tetrahedra.
+/// What people should know about the solution, a line each, and about what was computed of it.
 fn warnings(
     solution: &Solution,
-    values: [Option<[f64; 2]>; 2],
-    ranges: [Option<[f64; 2]>; 2],
+    flat: Option<&Interpolated<OnTriangles>>,
+    solid: Option<&Interpolated<OnTetrahedra>>,
 ) -> Vec<String> {
     let mut warnings = solution.pde_warnings().to_vec();
     if let Some(domain) = &solution.triangles {
-        warnings.extend(of_domain(solution, domain, values[0].zip(ranges[0])));
+        warnings.extend(of_domain(solution, domain, flat));
     }
     if let Some(domain) = &solution.tetrahedra {
-        warnings.extend(of_domain(solution, domain, values[1].zip(ranges[1])));
+        warnings.extend(of_domain(solution, domain, solid));
     }
     warnings.dedup();
     warnings
 }
 
 /// What people should know about the cells of one dimension.
-fn of_domain<const CORNERS: usize>(
+fn of_domain<Coefficients, const CORNERS: usize>(
     solution: &Solution,
     domain: &Domain<CORNERS>,
-    known: Option<([f64; 2], [f64; 2])>,
+    found: Option<&Interpolated<Coefficients>>,
 ) -> impl Iterator<Item = String> {
     let gradients = &domain.gradients;
-    let too_far = known.and_then(|(values, range)| {
-        range_warning(&solution.label, &gradients.origin, values, range)
+    let too_far = found.and_then(|found| {
+        range_warning(&solution.label, &gradients.origin, found.at_vertices, found.range)
     });
     [coincidence_warning(&domain.mesh), gradients.warning.clone(), too_far].into_iter().flatten()
 }

@@ -57,16 +57,12 @@ impl Interpolation {
         let flat = flat.and_then(|domain| Bounded::<OnTriangles, 3>::new(solution, domain));
         let solid = solution.tetrahedra.as_ref();
         let solid = solid.and_then(|domain| Bounded::<OnTetrahedra, 4>::new(solution, domain));
-        let known = levels.known()?;
-        let flat = flat.map(|bounded| (bounded.range(known.is_some()), bounded));
-        let solid = solid.map(|bounded| (bounded.range(known.is_some()), bounded));
+        let are_known = levels.known()?.is_some();
+        let flat = flat.map(|bounded| (bounded.range(are_known), bounded));
+        let solid = solid.map(|bounded| (bounded.range(are_known), bounded));
         let ranges =
             [flat.as_ref().map(|(range, _)| *range), solid.as_ref().map(|(range, _)| *range)];
-        let levels = match (known, joined(ranges)) {
-            (Some(levels), _) => levels,
-            (None, Some(range)) => levels.resolve(range)?,
-            (None, None) => Vec::new(),
-        };
+        let levels = levels.resolve(joined(ranges).unwrap_or_default())?;
         let triangles = flat.map(|(range, bounded)| bounded.at(&levels, range));
         let tetrahedra = solid.map(|(range, bounded)| bounded.at(&levels, range));
         Self::of_domains(solution, triangles, tetrahedra, diagonal)
@@ -235,7 +231,7 @@ mod tests {
         grid
     }
 
-    /// How many cells are known of which, and the ranges of values and cubics.
+    /// How many cells are known, and the ranges of values and cubics.
     fn known(gradient: GradientSource, levels: Levels) -> (usize, [f64; 2], [f64; 2]) {
         let array = Some("u".to_owned());
         let options = ContourOptions { levels, array, gradient, ..ContourOptions::default() };

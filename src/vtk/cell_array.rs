@@ -140,17 +140,6 @@ impl CellArray {
 /// How many indices one thread checks at a time.
 const CHUNK: usize = 1 << 16;
 
-/// Refuses offsets that fall.
-pub(super) fn check_rising(offsets: &[i64]) -> Result<(), ArrayError> {
-    // Seldom false, so looked at as a whole first, without a branch for each.
-    let pairs = offsets.iter().zip(offsets.iter().skip(1));
-    if !pairs.fold(false, |any, (left, right)| any | (left > right)) {
-        return Ok(());
-    }
-    let cell = offsets.windows(2).position(|pair| pair[0] > pair[1]);
-    Err(ArrayError::FallingOffsets { cell: cell.unwrap_or(0) })
-}
-
 /// The place of the first index outside `0..count`.
 pub(super) fn first_outside(indices: &[i64], count: usize) -> Option<usize> {
     use rayon::prelude::*;

@@ -3,7 +3,7 @@
 use super::array_head::ArrayHead;
 use super::cell_array::{CellArray, first_outside};
 use super::error::{ArrayError, VtkError};
-use super::offsets::Offsets;
+use super::offsets::{Offsets, common_difference};
 use super::payload::Payload;
 use super::scalar::Scalar;
 use super::values::match_type;
@@ -80,13 +80,12 @@ impl<'a> Integers<'a> {
         self.count
     }
 
-    /// The first number, if it is the difference of each number and the one before, too: so the ends
-    /// of lists of one size are seen without being kept. Nothing where that cannot be seen in the file
-    /// as it is.
-    fn common_difference(&self) -> Option<usize> {
+    /// The size of all lists of which these are the ends, if they have the same: seen without being
+    /// kept. Nothing where that cannot be seen in the file as it is.
+    fn size_of_lists(&self) -> Option<usize> {
         let bytes = self.payload.as_it_is()?;
         let (kind, _) = self.head.shape.clone().ok()?;
-        match_type!(kind, T => common_difference::<T>(bytes), other => None)
+        match_type!(kind, T => size_of_lists::<T>(bytes), other => None)
     }
 
     /// Decodes into `dest`; numbers of that type are decoded in place.
@@ -104,20 +103,10 @@ impl<'a> Integers<'a> {
     }
 }
 
-/// The first of some numbers, if it is the difference of each and the one before, too.
-fn common_difference<T: Scalar>(bytes: &[u8]) -> Option<usize> {
+/// The size of all lists whose ends have these bytes.
+fn size_of_lists<T: Scalar>(bytes: &[u8]) -> Option<usize> {
     let number = |bytes: &[u8]| bytemuck::pod_read_unaligned::<T>(bytes).to_i64();
-    let numbers = bytes.chunks_exact(size_of::<T>());
-    let first = usize::try_from(number(numbers.clone().next()?)?).ok()?;
-    // so that the others do not overflow
-    i64::try_from(first.checked_mul(numbers.len())?).ok()?;
-    let mut expected = 0;
-    // without a branch for each
-    let are_all = numbers.fold(true, |all, bytes| {
-        expected += first as i64;
-        all & (number(bytes) == Some(expected))
-    });
-    are_all.then_some(first)
+    common_difference(bytes.chunks_exact(size_of::<T>()).map(number))
 }
 
 fn convert<T: Scalar, D: TryFrom<i64>>(source: &[T], dest: &mut [D]) -> Result<(), ArrayError> {
@@ -191,7 +180,7 @@ fn read_offsets(
 
 /// The offsets of a piece, of which the array leaves out the leading 0.
 fn decode_offsets(part: &Integers<'_>) -> Result<Offsets, ArrayError> {
-    if let Some(size) = part.common_difference() {
+    if let Some(size) = part.size_of_lists() {
         return Ok(Offsets::regular(part.count(), size));
     }
     let mut offsets = large_pages::zeros::<i64>(part.count() + 1);
@@ -251,7 +240,7 @@ mod tests {
         fn found<T: Scalar>(ends: &[T]) -> Option<usize> {
             // not aligned
             let bytes = [&[0], bytemuck::cast_slice(ends)].concat();
-            common_difference::<T>(&bytes[1..])
+            size_of_lists::<T>(&bytes[1..])
         }
         assert_eq!(found(&[4_i64, 8, 12]), Some(4));
         assert_eq!(found(&[7_u32]), Some(7));

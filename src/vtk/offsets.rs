@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::cell_array::check_rising;
 use super::error::ArrayError;
 
 /// Where lists that stand one after the other begin and end.
@@ -36,22 +35,15 @@ impl Offsets {
     /// # Errors
     /// They do not begin with 0, or fall.
     pub(super) fn from_vec(offsets: Vec<i64>) -> Result<Self, ArrayError> {
-        if offsets.first() != Some(&0) {
+        let Some((0, ends)) = offsets.split_first() else {
             return Err(ArrayError::FirstOffset);
+        };
+        if ends.is_empty() {
+            return Ok(Self::none());
         }
-        let lists = offsets.len() - 1;
-        let size = offsets.get(1).copied().unwrap_or(0);
-        let mut next = 0_i64;
-        // without a branch for each
-        let are_regular = offsets.iter().fold(true, |all, offset| {
-            let is_next = *offset == next;
-            next = next.wrapping_add(size);
-            all & is_next
-        });
-        let end = size.checked_mul(lists as i64);
-        match usize::try_from(size) {
-            Ok(size) if are_regular && end.is_some() => Ok(Self::regular(lists, size)),
-            _ => check_rising(&offsets).map(|()| Self(Form::Several(offsets))),
+        match common_difference(ends.iter().copied().map(Some)) {
+            Some(size) => Ok(Self::regular(ends.len(), size)),
+            None => check_rising(&offsets).map(|()| Self(Form::Several(offsets))),
         }
     }
 
@@ -138,6 +130,34 @@ impl Offsets {
             }
         }
     }
+}
+
+/// The first of some ends of lists, if it is the difference of each and the one before, too: the size
+/// of all. An end may be no number of an offset.
+pub(super) fn common_difference(
+    ends: impl ExactSizeIterator<Item = Option<i64>> + Clone,
+) -> Option<usize> {
+    let first = usize::try_from(ends.clone().next()??).ok()?;
+    // so that the others do not overflow
+    i64::try_from(first.checked_mul(ends.len())?).ok()?;
+    let mut expected = 0;
+    // without a branch for each
+    let are_all = ends.fold(true, |all, end| {
+        expected += first as i64;
+        all & (end == Some(expected))
+    });
+    are_all.then_some(first)
+}
+
+/// Refuses offsets that fall.
+fn check_rising(offsets: &[i64]) -> Result<(), ArrayError> {
+    // Seldom false, so looked at as a whole first, without a branch for each.
+    let pairs = offsets.iter().zip(offsets.iter().skip(1));
+    if !pairs.fold(false, |any, (left, right)| any | (left > right)) {
+        return Ok(());
+    }
+    let cell = offsets.windows(2).position(|pair| pair[0] > pair[1]);
+    Err(ArrayError::FallingOffsets { cell: cell.unwrap_or(0) })
 }
 
 #[cfg(test)]
